@@ -1,0 +1,44 @@
+#pragma once
+
+#include <alluvium/grains/wall.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace alluvium::grains
+{
+  /** One grain as a deposit makes it: SI, per unit depth. */
+  struct Seed
+  {
+    double x, y, radius, density;
+    double vx = 0., vy = 0., omega = 0.;
+  };
+
+  /** What a deposit may know of the scene. */
+  struct DepositContext
+  {
+    std::array<double, 2>    lower, upper;  // bounding box of the domain [m]
+    std::vector<WallSegment> walls;
+    double                   density;       // default grain density [kg/m^3]
+    std::array<double, 2>    gravity;       // [m/s^2]
+    std::string              directory;     // of the parameter file: relative paths start here
+  };
+
+  /**
+   * Interface of the plug-ins that say where the grains are at t = 0. make() runs on one rank only; the result is sent to the
+   * others. It must be reproducible: the same parameters and seed give the same grains.
+   */
+  class Deposit
+  {
+  public:
+    virtual ~Deposit() = default;
+    virtual void              add_parameters(dealii::ParameterHandler &) {}
+    virtual std::vector<Seed> make(const DepositContext &context) const = 0;
+  };
+} // namespace alluvium::grains

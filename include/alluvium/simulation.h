@@ -1,0 +1,41 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <memory>
+#include <string>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace alluvium
+{
+  /**
+   * A whole run: fluid, grains and what couples them, in the order that step() shows. Life cycle: construct, add_parameters(),
+   * let the parameter handler parse, then check() or run().
+   */
+  class Simulation
+  {
+  public:
+    explicit Simulation(MPI_Comm communicator);
+    ~Simulation();
+
+    /** Declare every parameter of the program in @p prm and bind it to the object that uses it. */
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /** Build the scene, report what it is and what it leaves out, and stop; writes no files. */
+    void check(const std::string &parameter_directory);
+
+    /**
+     * Run to the end time, or until a SIGINT or SIGTERM ends it after a step with outputs closed and a checkpoint written.
+     * @p prm is written to the output folder as used.
+     */
+    void run(const dealii::ParameterHandler &prm, const std::string &parameter_directory);
+
+  private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation;
+  };
+} // namespace alluvium

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <alluvium/utilities/user_error.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/patterns.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace alluvium
+{
+  /**
+   * All known plug-ins of one kind, by the name that the parameter file uses. An Interface has a virtual destructor and
+   * `void add_parameters(dealii::ParameterHandler &)`, which declares its parameters and binds them to its members.
+   */
+  template <class Interface>
+  class Registry
+  {
+  public:
+    struct Entry
+    {
+      std::string                                 prose;
+      std::function<std::unique_ptr<Interface>()> create;
+    };
+
+    static std::map<std::string, Entry> &entries()
+    {
+      static std::map<std::string, Entry> all;
+      return all;
+    }
+
+    static bool add(const std::string &name, const std::string &prose, std::function<std::unique_ptr<Interface>()> create)
+    {
+      return entries().emplace(name, Entry{prose, std::move(create)}).second;
+    }
+  };
+
+  /**
+   * Register @p Class as a plug-in of kind @p Interface. Write it once, at namespace scope in the plug-in's own .cc;
+   * no other file needs to know.
+   */
+#define ALLUVIUM_REGISTER(Interface, Class, name, prose)                                     \
+  namespace                                                                                  \
+  {                                                                                          \
+    [[maybe_unused]] const bool registered_##Class =                                         \
+      ::alluvium::Registry<Interface>::add(name, prose, [] { return std::make_unique<Class>(); }); \
+  }
+
+  /**
+   * One plug-in chosen by name, or several. Declares the choice and a subsection with each registered plug-in's own parameters
+   * (a plug-in without parameters leaves no trace), so that --print-parameters shows them all by themselves.
+   */
+  template <class Interface>
+  class PluginChoice
+  {
+  public:
+    /** Declare parameter @p name with default @p choice and explanation @p prose in the current section of @p prm. */
+    void add_parameters(dealii::ParameterHandler &prm,
+                        const std::string        &name,
+                        const std::string        &choice,
+                        const std::string        &prose,
+                        const bool                several = false)
+    {
+      selected = choice;
+      std::string names, text = prose;
+      for (const auto &[key, entry] : Registry<Interface>::entries())
+        {
+          names += (names.empty() ? "" : "|") + key;
+          text += "\n'" + key + "': " + entry.prose;
+        }
+      if (several)
+        prm.add_parameter(name, selected, text, dealii::Patterns::MultipleSelection(names));
+      else
+        prm.add_parameter(name, selected, text, dealii::Patterns::Selection(names));
+      for (const auto &[key, entry] : Registry<Interface>::entries())
+        {
+          auto instance = entry.create();
+          prm.enter_subsection(name + ": " + key);
+          instance->add_parameters(prm);
+          prm.leave_subsection();
+          instances.emplace(key, std::move(instance));
+        }
+    }
+
+    const std::string &name() const { return selected; }
+
+    Interface &get() const
+    {
+      const auto it = instances.find(selected);
+      check_user(it != instances.end(), "There is no plug-in named '" + selected + "'.");
+      return *it->second;
+    }
+
+    /** The chosen plug-ins in the order given, for a choice of several. */
+    std::vector<Interface *> all() const
+    {
+      std::vector<Interface *> result;
+      for (const auto &key : dealii::Utilities::split_string_list(selected, ','))
+        result.push_back(instances.at(key).get());
+      return result;
+    }
+
+  private:
+    std::string                                       selected;
+    std::map<std::string, std::unique_ptr<Interface>> instances;
+  };
+} // namespace alluvium
