@@ -1,0 +1,143 @@
+#pragma once
+
+#include <alluvium/fluid/boundary_conditions.h>
+#include <alluvium/fluid/interphase.h>
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/mapping.h>
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/la_parallel_block_vector.h>
+
+namespace alluvium::fluid
+{
+  /** Block 0: velocity [m/s], interleaved components; block 1: reduced pressure p - rho g.x [Pa]. */
+  using BlockVector = dealii::LinearAlgebra::distributed::BlockVector<double>;
+  using Vector      = dealii::LinearAlgebra::distributed::Vector<double>;
+
+  /**
+   * What the assembly needs of one locally owned cell, computed once a mesh. Local indices address ghosted vectors
+   * directly (Vector::local_element), which a loop over dof handlers and FEValues could not do as fast.
+   */
+  template <int dim>
+  struct CellData
+  {
+    static constexpr unsigned int n = max_nodes<dim>;
+
+    double                                                      measure, size; // [m^dim], [m]
+    std::array<std::array<std::array<double, dim>, n>, n>       grad;          // [quadrature point][node]
+    std::array<double, n>                                       jxw;
+    std::array<std::array<unsigned int, dim>, n>                velocity; // local indices in block 0
+    std::array<unsigned int, n>                                 pressure; // in block 1
+    std::array<unsigned int, n>                                 node;     // in scalar nodal fields
+    std::array<dealii::Point<dim>, n>                           vertex;
+    std::array<dealii::types::global_dof_index, n *(dim + 1)>   dofs; // global; [node * (dim+1) + component], component dim: p
+    bool                                                        constrained; // does any dof carry a constraint?
+    bool                                                        parallelogram;
+  };
+
+  /**
+   * Equal-order linear velocity-pressure space on a mesh of quadrilaterals (with hanging nodes) or triangles, with its
+   * constraints, its boundary dofs and the cached geometry of its cells. Rebuilt when the mesh changes.
+   */
+  template <int dim>
+  class FluidSpace
+  {
+  public:
+    explicit FluidSpace(const dealii::Triangulation<dim> &triangulation);
+
+    void reinit(const BoundaryConditions<dim> &boundary_conditions);
+
+    const std::vector<CellData<dim>> &cells() const { return cell_data; }
+    unsigned int                      n_nodes_per_cell() const { return n_nodes; }
+    unsigned int                      n_q_points() const { return n_q; }
+    /** Shape values [quadrature point][node], the same on every cell. */
+    const std::array<std::array<double, max_nodes<dim>>, max_nodes<dim>> &shape_values() const { return shapes; }
+
+    BlockVector make_field() const;       // ghosted, zero
+    Vector      make_nodal_field() const; // scalar, ghosted, zero
+
+    /** Set @p field's boundary values at the time of @p boundary_conditions, then its hanging nodes. */
+    void apply_boundary_values(const BoundaryConditions<dim>           &boundary_conditions,
+                               const double                             density,
+                               const dealii::Tensor<1, dim>            &gravity,
+                               BlockVector                             &field) const;
+
+    const dealii::Triangulation<dim> &triangulation() const { return *tria; }
+    const dealii::Mapping<dim>       &mapping() const { return *map; }
+    const dealii::DoFHandler<dim>    &dof_handler() const { return dofs; }
+    const dealii::DoFHandler<dim>    &nodal_dof_handler() const { return nodal_dofs; }
+    dealii::types::global_dof_index   n_dofs() const { return dofs.n_dofs(); }
+    MPI_Comm                          communicator() const { return tria->get_communicator(); }
+
+    /** Hanging nodes and boundary conditions, all homogeneous (for increments); hanging nodes alone. */
+    const dealii::AffineConstraints<double> &constraints() const { return system_constraints; }
+    const dealii::AffineConstraints<double> &hanging_constraints() const { return hanging; }
+    const dealii::AffineConstraints<double> &nodal_constraints() const { return nodal_hanging; }
+
+    const std::vector<dealii::IndexSet> &owned() const { return owned_blocks; }
+    const std::vector<dealii::IndexSet> &relevant() const { return relevant_blocks; }
+    const dealii::IndexSet              &relevant_dofs() const { return relevant_all; }
+
+    /**
+     * A test function that is 1 on the nodes of one boundary and 0 on all others, on the cells where it does not vanish.
+     * The residual of the continuity equation against it is the flux through that boundary.
+     */
+    struct BoundaryWeight
+    {
+      unsigned int                       cell;
+      std::array<double, max_nodes<dim>> weight;
+    };
+    const std::vector<BoundaryWeight> &weights_at(const dealii::types::boundary_id id) const
+    {
+      return boundary_weights.at(id);
+    }
+
+    /** A face with prescribed velocity, through which the continuity equation needs the flux. */
+    struct InflowFace
+    {
+      unsigned int                                                     cell;
+      std::vector<std::array<double, max_nodes<dim>>>                  phi; // [quadrature point][node of the cell]
+      std::vector<dealii::Tensor<1, dim>>                              normal_jxw;
+    };
+    const std::vector<InflowFace> &inflow_faces() const { return inflow; }
+
+    /** Fill a nodal field's hanging nodes by interpolation. */
+    void interpolate_hanging_nodes(Vector &nodal_field) const;
+
+    /** Integral of each nodal basis function [m^dim], hanging nodes condensed. */
+    const Vector &node_volumes() const { return volumes; }
+
+  private:
+    void make_constraints(const BoundaryConditions<dim> &boundary_conditions);
+    void cache_cells();
+
+    const dealii::Triangulation<dim>                      *tria;
+    std::unique_ptr<dealii::Mapping<dim>>                  map;
+    std::unique_ptr<dealii::FiniteElement<dim>>            scalar_fe, system_fe;
+    dealii::DoFHandler<dim>                                dofs, nodal_dofs;
+    dealii::AffineConstraints<double>                      system_constraints, hanging, nodal_hanging;
+    std::vector<dealii::IndexSet>                          owned_blocks, relevant_blocks;
+    dealii::IndexSet                                       relevant_all;
+
+    unsigned int                                                  n_nodes = 0, n_q = 0;
+    std::array<std::array<double, max_nodes<dim>>, max_nodes<dim>> shapes;
+    std::vector<CellData<dim>>                                    cell_data;
+    Vector                                                        volumes;
+
+    /** A dof whose value a boundary condition gives: a component of the boundary's function at a point. */
+    struct BoundaryDof
+    {
+      dealii::types::global_dof_index dof;
+      dealii::types::boundary_id      boundary;
+      unsigned int                    component; // dim: pressure
+      dealii::Point<dim>              point;
+    };
+    std::vector<BoundaryDof>                                          boundary_dofs;
+    std::map<dealii::types::boundary_id, std::vector<BoundaryWeight>> boundary_weights;
+    std::vector<InflowFace>                                           inflow;
+
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> nodal_partitioner;
+    std::vector<std::shared_ptr<const dealii::Utilities::MPI::Partitioner>> partitioners;
+  };
+} // namespace alluvium::fluid

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace alluvium::fluid
+{
+  /** Nodes of the largest cell: 4 in 2-D, 8 in 3-D (linear elements, quadrilateral or simplex). */
+  template <int dim>
+  constexpr unsigned int max_nodes = 1 << dim;
+
+  /** Where a piece of the solid sits in its cell: all that integrals of shape functions over it need. */
+  template <int dim>
+  struct PieceShape
+  {
+    double                                              area; // [m^2], weights included
+    std::array<double, max_nodes<dim>>                  phi;  // mean of each nodal shape function over the piece
+    std::array<std::array<double, dim>, max_nodes<dim>> grad; // its gradient at the piece's centroid [1/m]
+  };
+
+  /**
+   * What a piece of the solid exchanges with the fluid, per unit of its area. With b = gamma * compliance its velocity is
+   *   v = a + b (u - u_ref) - compliance * grad p     (paper (15) for `semi-implicit`; a alone for the others)
+   * and the force density on the solid is  gamma (u - v) + e - grad p, p the reduced pressure.
+   */
+  template <int dim>
+  struct PieceExchange
+  {
+    double                  gamma      = 0.; // implicit drag [N s/m^4]
+    double                  compliance = 0.; // [m^4/(N s)]
+    std::array<double, dim> a          = {}; // known part of the solid velocity [m/s]
+    std::array<double, dim> e          = {}; // explicit force density on the solid [N/m^3]
+    std::uint8_t            reference  = 0;  // which of the reference velocity fields u_ref is
+  };
+
+  /** The solid as the fluid sees it: pieces sorted by cell, in the order of FluidSpace::cells(). */
+  template <int dim>
+  struct InterphaseTerms
+  {
+    std::vector<unsigned int>       begin; // n_cells + 1 offsets into the two arrays below
+    std::vector<PieceShape<dim>>    shape;
+    std::vector<PieceExchange<dim>> exchange;
+
+    std::size_t n_pieces() const { return shape.size(); }
+  };
+} // namespace alluvium::fluid

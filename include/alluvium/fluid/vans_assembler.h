@@ -1,0 +1,76 @@
+#pragma once
+
+#include <alluvium/fluid/fluid_space.h>
+
+#include <deal.II/lac/trilinos_block_sparse_matrix.h>
+
+namespace alluvium::fluid
+{
+  struct FluidProperties
+  {
+    double density   = 1000.; // [kg/m^3]
+    double viscosity = 1e-3;  // dynamic [Pa s]
+  };
+
+  /** Switches of the discretisation that charts compare. */
+  struct Discretisation
+  {
+    bool lumped_drag = true; // row-sum lumping of the drag in the momentum equation
+    bool convection  = true; // u.grad u and its stabilisation
+  };
+
+  /**
+   * One linearised VANS problem (paper (12)-(13)): its data at t^n and its known terms. All fields ghosted.
+   */
+  template <int dim>
+  struct VansProblem
+  {
+    FluidProperties                      fluid;
+    Discretisation                       discretisation;
+    double                               dt;
+    const Vector                        *void_fraction;            // nodal
+    const BlockVector                   *old;                      // u^n (block 0)
+    const InterphaseTerms<dim>          *solid;
+    std::array<const Vector *, 2>        reference = {{nullptr, nullptr}}; // velocity fields u_ref of the pieces
+    const dealii::Function<dim>         *body_force  = nullptr;    // [N/m^3], dim components; for manufactured solutions
+    const dealii::Function<dim>         *mass_source = nullptr;    // [1/s]
+  };
+
+  /**
+   * Assembles the stabilised weak form for increments around an iterate x that already has its boundary values:
+   *   A dx = r(x) = known terms - A x,  with homogeneous constraints.
+   * Momentum: eps rho (du/dt + u.grad u) and eps eta (grad u + grad u^T) on the mesh, -grad p + sum over pieces A grad p (model A),
+   * drag on the pieces. Continuity integrated by parts. PSPG and SUPG with the full residual, pieces included, and
+   * tau = [(2 rho eps/dt)^2 + (2 rho eps |u|/h)^2 + (12 eps eta/h^2)^2 + (2 sigma)^2]^(-1/2), sigma the cell's mean drag.
+   */
+  template <int dim>
+  class VansAssembler
+  {
+  public:
+    explicit VansAssembler(const FluidSpace<dim> &space);
+
+    /** Build the sparsity pattern; call after every FluidSpace::reinit(). */
+    void reinit();
+
+    /** Fill matrix() and @p residual = r(@p iterate). */
+    void assemble(const VansProblem<dim> &problem, const BlockVector &iterate, BlockVector &residual);
+
+    /** Add the pieces' known terms (a, e, u_ref) to @p right_hand_side, times @p factor: all that a change of lag changes. */
+    void add_known_interphase(const VansProblem<dim> &problem, const double factor, BlockVector &right_hand_side) const;
+
+    /**
+     * Flux of the mixture out through boundary @p id [m^2/s], from the continuity equation's own residual: what enters minus what
+     * leaves is then zero to the solver's tolerance. Collective.
+     */
+    double flux(const VansProblem<dim> &problem, const BlockVector &solution, const dealii::types::boundary_id id) const;
+
+    const dealii::TrilinosWrappers::BlockSparseMatrix &matrix() const { return system_matrix; }
+
+    /** Sizes of the two equations' terms before they cancel (l2 over cells and nodes): what a residual is small against. */
+    std::array<double, 2> term_norms(const VansProblem<dim> &problem, const BlockVector &iterate) const;
+
+  private:
+    const FluidSpace<dim>                       *space;
+    dealii::TrilinosWrappers::BlockSparseMatrix system_matrix;
+  };
+} // namespace alluvium::fluid

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <alluvium/fluid/linear_solver.h>
+#include <alluvium/fluid/vans_assembler.h>
+
+namespace alluvium::fluid
+{
+  /**
+   * One time step of the volume-averaged Navier-Stokes equations, cut where the coupling needs it: begin_step() takes
+   * the boundary values of the new time, solve() assembles and solves, solve_again() changes only the pieces' known terms.
+   */
+  template <int dim>
+  class VansSolver
+  {
+  public:
+    explicit VansSolver(const FluidSpace<dim> &space);
+
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /** Forget matrices and preconditioner: the space has been rebuilt. @p solution and old() are zero afterwards. */
+    void reinit();
+
+    /**
+     * Start the step from t^n to t^n + dt; the boundary conditions' time is already the new one. @p problem's pointers must stay valid
+     * until the step is over; its `old` is set here.
+     */
+    void begin_step(const BoundaryConditions<dim> &boundary_conditions, const VansProblem<dim> &problem);
+
+    /** Assemble and solve with the pieces' present known terms. */
+    void solve();
+
+    /** Exchange the pieces' known terms without a new matrix: @p change_terms edits them and the reference fields. */
+    template <typename Function>
+    void solve_again(const Function &change_terms)
+    {
+      remove_known_terms();
+      change_terms(current);
+      solve_with_new_known_terms();
+    }
+
+    /** End of the step: u^n <- u^{n+1}. */
+    void accept();
+
+    /** Outflow through a boundary with the latest solution and terms [m^2/s]. */
+    double flux(const dealii::types::boundary_id id) const { return assembler.flux(current, iterate, id); }
+
+    const BlockVector &solution() const { return iterate; }
+    const BlockVector &old() const { return previous; }
+    /** For transfer, restart and initial values; the caller sets ghosts. */
+    BlockVector &old() { return previous; }
+    void         set_solution(const BlockVector &field);
+
+    const LinearSolverReport &last_report() const { return report; }
+
+    FluidProperties properties;
+    dealii::Tensor<1, dim> gravity;
+    Discretisation  discretisation;
+    LinearSolver    linear_solver;
+
+  private:
+    void remove_known_terms();
+    void solve_with_new_known_terms();
+    void solve_increment();
+
+    const FluidSpace<dim> *space;
+    VansAssembler<dim>     assembler;
+    VansProblem<dim>       current;
+    BlockVector            iterate, previous, residual, increment;
+    LinearSolverReport     report;
+    double                 dt_of_preconditioner = 0.;
+  };
+} // namespace alluvium::fluid

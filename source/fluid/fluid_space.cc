@@ -1,0 +1,406 @@
+#include <alluvium/fluid/fluid_space.h>
+#include <alluvium/utilities/user_error.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_renumbering.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_fe.h>
+#include <deal.II/fe/mapping_q1.h>
+#include <deal.II/grid/tria.h>
+
+#include <set>
+
+namespace alluvium::fluid
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    bool is_simplex_mesh(const Triangulation<dim> &tria)
+    {
+      return tria.all_reference_cells_are_simplex();
+    }
+
+    template <int dim>
+    Quadrature<dim> cell_quadrature(const bool simplex)
+    {
+      if (simplex)
+        return QGaussSimplex<dim>(2);
+      return QGauss<dim>(2);
+    }
+
+    // the same cell seen by another DoFHandler (deal.II has a member function for it only from 9.5 on)
+    template <int dim>
+    typename DoFHandler<dim>::active_cell_iterator nodal_iterator(const typename DoFHandler<dim>::active_cell_iterator &cell,
+                                                                  const DoFHandler<dim> &other)
+    {
+      return {&cell->get_triangulation(), cell->level(), cell->index(), &other};
+    }
+
+    template <int dim>
+    Quadrature<dim - 1> face_quadrature()
+    {
+      return QGauss<dim - 1>(2);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  FluidSpace<dim>::FluidSpace(const Triangulation<dim> &triangulation)
+    : tria(&triangulation)
+    , dofs(triangulation)
+    , nodal_dofs(triangulation)
+  {
+    if (is_simplex_mesh(triangulation))
+      {
+        scalar_fe = std::make_unique<FE_SimplexP<dim>>(1);
+        map       = std::make_unique<MappingFE<dim>>(FE_SimplexP<dim>(1));
+      }
+    else
+      {
+        check_user(triangulation.all_reference_cells_are_hyper_cube(),
+                   "The fluid mesh mixes cell types: give only quadrilaterals or only triangles.");
+        scalar_fe = std::make_unique<FE_Q<dim>>(1);
+        map       = std::make_unique<MappingQ1<dim>>();
+      }
+    system_fe = std::make_unique<FESystem<dim>>(*scalar_fe, dim + 1);
+    n_nodes   = scalar_fe->n_dofs_per_cell();
+  }
+
+
+
+  template <int dim>
+  void FluidSpace<dim>::reinit(const BoundaryConditions<dim> &boundary_conditions)
+  {
+    dofs.distribute_dofs(*system_fe);
+    DoFRenumbering::Cuthill_McKee(dofs);
+    std::vector<unsigned int> block(dim + 1, 0);
+    block[dim] = 1;
+    DoFRenumbering::component_wise(dofs, block);
+    nodal_dofs.distribute_dofs(*scalar_fe);
+
+    const auto n_per_block = DoFTools::count_dofs_per_fe_block(dofs, block);
+    const auto n_u = n_per_block[0], n_p = n_per_block[1];
+    DoFTools::extract_locally_relevant_dofs(dofs, relevant_all);
+    owned_blocks    = {dofs.locally_owned_dofs().get_view(0, n_u), dofs.locally_owned_dofs().get_view(n_u, n_u + n_p)};
+    relevant_blocks = {relevant_all.get_view(0, n_u), relevant_all.get_view(n_u, n_u + n_p)};
+
+    partitioners.clear();
+    for (unsigned int b = 0; b < 2; ++b)
+      partitioners.push_back(
+        std::make_shared<Utilities::MPI::Partitioner>(owned_blocks[b], relevant_blocks[b], communicator()));
+    IndexSet relevant_nodal;
+    DoFTools::extract_locally_relevant_dofs(nodal_dofs, relevant_nodal);
+    nodal_partitioner =
+      std::make_shared<Utilities::MPI::Partitioner>(nodal_dofs.locally_owned_dofs(), relevant_nodal, communicator());
+
+    hanging.clear();
+    hanging.reinit(relevant_all);
+    DoFTools::make_hanging_node_constraints(dofs, hanging);
+    hanging.close();
+    nodal_hanging.clear();
+    nodal_hanging.reinit(relevant_nodal);
+    DoFTools::make_hanging_node_constraints(nodal_dofs, nodal_hanging);
+    nodal_hanging.close();
+
+    make_constraints(boundary_conditions);
+    cache_cells();
+  }
+
+
+
+  template <int dim>
+  void FluidSpace<dim>::make_constraints(const BoundaryConditions<dim> &boundary_conditions)
+  {
+    using Kind = typename BoundaryConditions<dim>::Kind;
+    system_constraints.clear();
+    system_constraints.reinit(relevant_all);
+    system_constraints.merge(hanging);
+    boundary_dofs.clear();
+    boundary_weights.clear();
+    inflow.clear();
+
+    // nodes of each boundary, and the normals of the slip walls that meet at a node
+    struct Node
+    {
+      std::array<types::global_dof_index, dim + 1> dof;
+      Point<dim>                                   point;
+      std::map<Kind, types::boundary_id>           kinds;
+      std::vector<Tensor<1, dim>>                  slip_normals;
+    };
+    std::map<types::global_dof_index, Node>                        nodes; // by nodal dof
+    std::map<types::boundary_id, std::set<types::global_dof_index>> on_boundary;
+
+    const Quadrature<dim - 1>            quadrature = face_quadrature<dim>();
+    FEFaceValues<dim>                    face_values(*map,
+                                  *scalar_fe,
+                                  quadrature,
+                                  update_values | update_normal_vectors | update_JxW_values);
+    std::vector<types::global_dof_index> cell_dofs(system_fe->n_dofs_per_cell()), cell_nodes(n_nodes);
+
+    unsigned int cell_index = 0;
+    for (const auto &cell : dofs.active_cell_iterators())
+      {
+        if (cell->is_artificial())
+          continue;
+        const unsigned int my_index = cell_index;
+        cell_index += cell->is_locally_owned();
+        if (!cell->at_boundary())
+          continue;
+        const auto nodal_cell = nodal_iterator(cell, nodal_dofs);
+        cell->get_dof_indices(cell_dofs);
+        nodal_cell->get_dof_indices(cell_nodes);
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary())
+            {
+              const auto  id        = cell->face(f)->boundary_id();
+              const auto &condition = boundary_conditions.all().at(id);
+              face_values.reinit(nodal_cell, f);
+              for (unsigned int v = 0; v < n_nodes; ++v)
+                {
+                  if (!scalar_fe->has_support_on_face(v, f))
+                    continue;
+                  Node &node = nodes[cell_nodes[v]];
+                  for (unsigned int c = 0; c <= dim; ++c)
+                    node.dof[c] = cell_dofs[system_fe->component_to_system_index(c, v)];
+                  node.point = cell->vertex(v);
+                  node.kinds.emplace(condition.kind, id);
+                  if (condition.kind == Kind::slip)
+                    node.slip_normals.push_back(face_values.normal_vector(0));
+                  on_boundary[id].insert(cell_nodes[v]);
+                }
+              if (condition.kind == Kind::velocity && cell->is_locally_owned())
+                {
+                  InflowFace face;
+                  face.cell = my_index;
+                  for (unsigned int q = 0; q < quadrature.size(); ++q)
+                    {
+                      std::array<double, max_nodes<dim>> phi{};
+                      for (unsigned int v = 0; v < n_nodes; ++v)
+                        phi[v] = face_values.shape_value(v, q);
+                      face.phi.push_back(phi);
+                      face.normal_jxw.push_back(face_values.normal_vector(q) * face_values.JxW(q));
+                    }
+                  inflow.push_back(face);
+                }
+            }
+      }
+
+    const auto fix = [&](const Node &node, const unsigned int component) {
+      if (!system_constraints.is_constrained(node.dof[component]))
+        system_constraints.add_line(node.dof[component]);
+    };
+    for (const auto &[index, node] : nodes)
+      {
+        const auto prescribe = [&](const unsigned int component, const types::boundary_id id) {
+          if (hanging.is_constrained(node.dof[component]))
+            return;
+          fix(node, component);
+          boundary_dofs.push_back({node.dof[component], id, component, node.point});
+        };
+        if (const auto it = node.kinds.find(Kind::pressure); it != node.kinds.end())
+          prescribe(dim, it->second);
+        // where a wall meets an inflow, the wall wins: its velocity is zero
+        if (node.kinds.count(Kind::no_slip))
+          for (unsigned int c = 0; c < dim; ++c)
+            fix(node, c);
+        else if (const auto it = node.kinds.find(Kind::velocity); it != node.kinds.end())
+          for (unsigned int c = 0; c < dim; ++c)
+            prescribe(c, it->second);
+        else if (!node.slip_normals.empty())
+          {
+            const Tensor<1, dim> first = node.slip_normals.front();
+            const bool corner = std::any_of(node.slip_normals.begin(), node.slip_normals.end(), [&](const auto &m) {
+              return std::abs(m * first) < 0.9; // steeper than about 26 degrees: a corner, not a curved wall
+            });
+            if (corner)
+              for (unsigned int c = 0; c < dim; ++c)
+                fix(node, c);
+            else
+              {
+                Tensor<1, dim> normal;
+                for (const auto &m : node.slip_normals)
+                  normal += m;
+                normal /= normal.norm();
+                unsigned int c = 0;
+                for (unsigned int e = 1; e < dim; ++e)
+                  if (std::abs(normal[e]) > std::abs(normal[c]))
+                    c = e;
+                if (!system_constraints.is_constrained(node.dof[c]))
+                  {
+                    system_constraints.add_line(node.dof[c]);
+                    for (unsigned int e = 0; e < dim; ++e)
+                      if (e != c && std::abs(normal[e]) > 1e-12)
+                        system_constraints.add_entry(node.dof[c], node.dof[e], -normal[e] / normal[c]);
+                  }
+              }
+          }
+      }
+    if (boundary_conditions.pins_pressure())
+      {
+        const types::global_dof_index first_pressure = partitioners[0]->size();
+        if (relevant_all.is_element(first_pressure) && !system_constraints.is_constrained(first_pressure))
+          system_constraints.add_line(first_pressure);
+      }
+    system_constraints.close();
+
+    for (const auto &[id, condition] : boundary_conditions.all())
+      {
+        Vector weight = make_nodal_field();
+        for (const auto index : on_boundary[id])
+          if (nodal_partitioner->in_local_range(index))
+            weight(index) = 1.;
+        interpolate_hanging_nodes(weight);
+        auto &list = boundary_weights[id];
+        cell_index = 0;
+        for (const auto &cell : nodal_dofs.active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              cell->get_dof_indices(cell_nodes);
+              BoundaryWeight w{cell_index, {}};
+              double         sum = 0.;
+              for (unsigned int v = 0; v < n_nodes; ++v)
+                sum += w.weight[v] = weight(cell_nodes[v]);
+              if (sum > 0.)
+                list.push_back(w);
+              ++cell_index;
+            }
+      }
+  }
+
+
+
+  template <int dim>
+  void FluidSpace<dim>::cache_cells()
+  {
+    const bool            simplex = is_simplex_mesh(*tria);
+    const Quadrature<dim> quadrature = cell_quadrature<dim>(simplex);
+    n_q                              = quadrature.size();
+    AssertThrow(n_q <= max_nodes<dim>, ExcInternalError());
+    FEValues<dim> values(*map, *scalar_fe, quadrature, update_values | update_gradients | update_JxW_values);
+
+    const types::global_dof_index        first_pressure = partitioners[0]->size();
+    std::vector<types::global_dof_index> cell_dofs(system_fe->n_dofs_per_cell()), cell_nodes(n_nodes);
+    cell_data.clear();
+    volumes = make_nodal_field();
+    for (const auto &cell : dofs.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const auto nodal_cell = nodal_iterator(cell, nodal_dofs);
+          values.reinit(nodal_cell);
+          cell->get_dof_indices(cell_dofs);
+          nodal_cell->get_dof_indices(cell_nodes);
+          CellData<dim> data{};
+          data.size = cell->diameter() / std::sqrt(double(dim));
+          for (unsigned int q = 0; q < n_q; ++q)
+            {
+              data.jxw[q] = values.JxW(q);
+              data.measure += data.jxw[q];
+              for (unsigned int v = 0; v < n_nodes; ++v)
+                {
+                  shapes[q][v] = values.shape_value(v, q);
+                  for (unsigned int d = 0; d < dim; ++d)
+                    data.grad[q][v][d] = values.shape_grad(v, q)[d];
+                }
+            }
+          for (unsigned int v = 0; v < n_nodes; ++v)
+            {
+              data.vertex[v] = cell->vertex(v);
+              data.node[v]   = nodal_partitioner->global_to_local(cell_nodes[v]);
+              for (unsigned int c = 0; c <= dim; ++c)
+                {
+                  const auto dof                 = cell_dofs[system_fe->component_to_system_index(c, v)];
+                  data.dofs[v * (dim + 1) + c]   = dof;
+                  data.constrained               = data.constrained || system_constraints.is_constrained(dof);
+                  if (c < dim)
+                    data.velocity[v][c] = partitioners[0]->global_to_local(dof);
+                  else
+                    data.pressure[v] = partitioners[1]->global_to_local(dof - first_pressure);
+                }
+            }
+          if (!simplex)
+            {
+              // opposite edges alike: the map is affine and the pieces' moments integrate Q1 exactly
+              data.parallelogram = true;
+              if constexpr (dim == 2)
+                data.parallelogram =
+                  (data.vertex[0] + (data.vertex[3] - data.vertex[1]) - data.vertex[2]).norm() < 1e-12 * data.size;
+            }
+          else
+            data.parallelogram = true;
+          cell_data.push_back(data);
+
+          dealii::Vector<double> local(n_nodes);
+          for (unsigned int v = 0; v < n_nodes; ++v)
+            for (unsigned int q = 0; q < n_q; ++q)
+              local(v) += shapes[q][v] * data.jxw[q];
+          nodal_hanging.distribute_local_to_global(local, cell_nodes, volumes);
+        }
+    volumes.compress(VectorOperation::add);
+    volumes.update_ghost_values();
+  }
+
+
+
+  template <int dim>
+  BlockVector FluidSpace<dim>::make_field() const
+  {
+    BlockVector field(2);
+    for (unsigned int b = 0; b < 2; ++b)
+      field.block(b).reinit(partitioners[b]);
+    field.collect_sizes();
+    return field;
+  }
+
+
+
+  template <int dim>
+  Vector FluidSpace<dim>::make_nodal_field() const
+  {
+    return Vector(nodal_partitioner);
+  }
+
+
+
+  template <int dim>
+  void FluidSpace<dim>::apply_boundary_values(const BoundaryConditions<dim> &boundary_conditions,
+                                              const double                   density,
+                                              const Tensor<1, dim>          &gravity,
+                                              BlockVector                   &field) const
+  {
+    field.zero_out_ghost_values();
+    const types::global_dof_index first_pressure = partitioners[0]->size();
+    for (const BoundaryDof &b : boundary_dofs)
+      {
+        const Function<dim> &value = *boundary_conditions.all().at(b.boundary).value;
+        if (b.component == dim)
+          {
+            if (partitioners[1]->in_local_range(b.dof - first_pressure))
+              field.block(1)(b.dof - first_pressure) = value.value(b.point) - density * (gravity * b.point);
+          }
+        else if (partitioners[0]->in_local_range(b.dof))
+          field.block(0)(b.dof) = value.value(b.point, b.component);
+      }
+    hanging.distribute(field);
+    field.update_ghost_values();
+  }
+
+
+
+  template <int dim>
+  void FluidSpace<dim>::interpolate_hanging_nodes(Vector &nodal_field) const
+  {
+    nodal_field.zero_out_ghost_values();
+    nodal_hanging.distribute(nodal_field);
+    nodal_field.update_ghost_values();
+  }
+
+
+
+  template class FluidSpace<2>;
+} // namespace alluvium::fluid

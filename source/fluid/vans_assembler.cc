@@ -1,0 +1,475 @@
+#include <alluvium/fluid/vans_assembler.h>
+
+#include <deal.II/base/utilities.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/lac/block_sparsity_pattern.h>
+#include <deal.II/lac/full_matrix.h>
+
+namespace alluvium::fluid
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /**
+     * The weak form on one cell with n nodes. Local unknowns are ordered node * (dim+1) + component, component dim the pressure.
+     * The number of nodes is a template argument so that the compiler unrolls the loops.
+     */
+    template <int dim, int n>
+    class CellKernel
+    {
+    public:
+      static constexpr unsigned int n_local = n * (dim + 1);
+      using LocalMatrix                     = std::array<std::array<double, n_local>, n_local>;
+      using LocalVector                     = std::array<double, n_local>;
+
+      CellKernel(const FluidSpace<dim> &space, const VansProblem<dim> &problem)
+        : space(space)
+        , problem(problem)
+      {}
+
+      /** Read the cell's nodal values and find tau. */
+      void reinit(const unsigned int index)
+      {
+        cell_index = index;
+        cell       = &space.cells()[index];
+        begin      = problem.solid->begin.empty() ? 0 : problem.solid->begin[index];
+        end        = problem.solid->begin.empty() ? 0 : problem.solid->begin[index + 1];
+        double eps_mean = 0., u_norm = 0.;
+        u_mean = {};
+        for (unsigned int v = 0; v < n; ++v)
+          {
+            eps[v] = problem.void_fraction->local_element(cell->node[v]);
+            eps_mean += eps[v] / n;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                u_old[v][d] = problem.old->block(0).local_element(cell->velocity[v][d]);
+                u_mean[d] += u_old[v][d] / n;
+              }
+          }
+        for (unsigned int d = 0; d < dim; ++d)
+          u_norm += u_mean[d] * u_mean[d];
+        u_norm       = problem.discretisation.convection ? std::sqrt(u_norm) : 0.;
+        double sigma = 0.;
+        for (unsigned int k = begin; k < end; ++k)
+          sigma += problem.solid->shape[k].area * problem.solid->exchange[k].gamma;
+        sigma /= cell->measure;
+        const double rho_eps = problem.fluid.density * eps_mean, h = cell->size;
+        const double inertia = 2. * rho_eps / problem.dt, advection = 2. * rho_eps * u_norm / h,
+                     diffusion = 12. * eps_mean * problem.fluid.viscosity / (h * h), drag = 2. * sigma;
+        const double tau =
+          1. / std::sqrt(inertia * inertia + advection * advection + diffusion * diffusion + drag * drag + 1e-300);
+        pspg = tau * eps_mean;
+        supg = problem.discretisation.convection ? tau * rho_eps : 0.;
+      }
+
+      void matrix(LocalMatrix &L) const
+      {
+        const double rho = problem.fluid.density, eta = problem.fluid.viscosity, dt = problem.dt;
+        for (auto &row : L)
+          row.fill(0.);
+        for (unsigned int q = 0; q < space.n_q_points(); ++q)
+          {
+            const auto  &phi  = space.shape_values()[q];
+            const auto  &grad = cell->grad[q];
+            const double jxw  = cell->jxw[q];
+            const double e = value(eps, phi), er = e * rho, e_eta = e * eta;
+            // rate[j] = (d/dt + u^n.grad) of shape function j; test[i] = Galerkin + SUPG weight
+            std::array<double, n> rate, test, streamline = advect(grad, phi);
+            for (unsigned int v = 0; v < n; ++v)
+              {
+                rate[v] = er * (phi[v] / dt + streamline[v]);
+                test[v] = phi[v] + supg * streamline[v];
+              }
+            for (unsigned int i = 0; i < n; ++i)
+              for (unsigned int j = 0; j < n; ++j)
+                {
+                  double grad_grad = 0.;
+                  for (unsigned int d = 0; d < dim; ++d)
+                    grad_grad += grad[i][d] * grad[j][d];
+                  const double diagonal = jxw * (test[i] * rate[j] + e_eta * grad_grad);
+                  for (unsigned int c = 0; c < dim; ++c)
+                    {
+                      double *row = &L[i * (dim + 1) + c][j * (dim + 1)];
+                      row[c] += diagonal;
+                      for (unsigned int d = 0; d < dim; ++d)
+                        row[d] += jxw * e_eta * grad[i][d] * grad[j][c];
+                      row[dim] += jxw * test[i] * grad[j][c];
+                      // continuity: - eps u.grad q, and PSPG with the momentum residual
+                      L[i * (dim + 1) + dim][j * (dim + 1) + c] += jxw * grad[i][c] * (pspg * rate[j] - e * phi[j]);
+                    }
+                  L[i * (dim + 1) + dim][j * (dim + 1) + dim] += jxw * pspg * grad_grad;
+                }
+          }
+        for (unsigned int k = begin; k < end; ++k)
+          {
+            const PieceShape<dim>    &s = problem.solid->shape[k];
+            const PieceExchange<dim> &x = problem.solid->exchange[k];
+            const double b = x.gamma * x.compliance, drag = s.area * x.gamma * (1. - b), lift = s.area * (1. - b);
+            const double flux_u = pspg * drag - s.area * b, flux_p = s.area * x.compliance - pspg * lift;
+            const std::array<double, n> weight = piece_weight(s);
+            for (unsigned int i = 0; i < n; ++i)
+              {
+                for (unsigned int c = 0; c < dim; ++c)
+                  if (problem.discretisation.lumped_drag)
+                    L[i * (dim + 1) + c][i * (dim + 1) + c] += drag * s.phi[i];
+                const double drag_test = drag * (problem.discretisation.lumped_drag ? weight[i] - s.phi[i] : weight[i]);
+                for (unsigned int j = 0; j < n; ++j)
+                  {
+                    double grad_grad = 0.;
+                    for (unsigned int c = 0; c < dim; ++c)
+                      {
+                        grad_grad += s.grad[i][c] * s.grad[j][c];
+                        L[i * (dim + 1) + c][j * (dim + 1) + c] += drag_test * s.phi[j];
+                        L[i * (dim + 1) + c][j * (dim + 1) + dim] -= lift * weight[i] * s.grad[j][c];
+                        L[i * (dim + 1) + dim][j * (dim + 1) + c] += flux_u * s.grad[i][c] * s.phi[j];
+                      }
+                    L[i * (dim + 1) + dim][j * (dim + 1) + dim] += flux_p * grad_grad;
+                  }
+              }
+          }
+      }
+
+      /** Add the terms known from the mesh: u^n/dt, body force, mass source. */
+      void known_mesh(LocalVector &b) const
+      {
+        const double rho = problem.fluid.density;
+        for (unsigned int q = 0; q < space.n_q_points(); ++q)
+          {
+            const auto  &phi  = space.shape_values()[q];
+            const auto  &grad = cell->grad[q];
+            const double jxw  = cell->jxw[q];
+            const double inertia = value(eps, phi) * rho / problem.dt;
+            const std::array<double, n> streamline = advect(grad, phi);
+            std::array<double, dim>     force{};
+            for (unsigned int d = 0; d < dim; ++d)
+              for (unsigned int v = 0; v < n; ++v)
+                force[d] += inertia * phi[v] * u_old[v][d];
+            double source = 0.;
+            if (problem.body_force || problem.mass_source)
+              {
+                Point<dim> x;
+                for (unsigned int v = 0; v < n; ++v)
+                  x += phi[v] * cell->vertex[v];
+                if (problem.body_force)
+                  for (unsigned int d = 0; d < dim; ++d)
+                    force[d] += problem.body_force->value(x, d);
+                if (problem.mass_source)
+                  source = problem.mass_source->value(x);
+              }
+            for (unsigned int i = 0; i < n; ++i)
+              {
+                for (unsigned int d = 0; d < dim; ++d)
+                  {
+                    b[i * (dim + 1) + d] += jxw * (phi[i] + supg * streamline[i]) * force[d];
+                    b[i * (dim + 1) + dim] += jxw * pspg * grad[i][d] * force[d];
+                  }
+                b[i * (dim + 1) + dim] += jxw * phi[i] * source;
+              }
+          }
+      }
+
+      /** Add the terms that the pieces know: a, e and u_ref. */
+      void known_pieces(LocalVector &r) const
+      {
+        for (unsigned int k = begin; k < end; ++k)
+          {
+            const PieceShape<dim>      &s = problem.solid->shape[k];
+            const PieceExchange<dim>   &x = problem.solid->exchange[k];
+            const double                b = x.gamma * x.compliance;
+            const std::array<double, n> weight = piece_weight(s);
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                std::array<double, n> reference{};
+                double                mean = 0.;
+                if (b != 0. && problem.reference[x.reference])
+                  for (unsigned int v = 0; v < n; ++v)
+                    {
+                      reference[v] = problem.reference[x.reference]->local_element(cell->velocity[v][d]);
+                      mean += reference[v] * s.phi[v];
+                    }
+                const double v_mean = x.a[d] - b * mean, force = s.area * (x.gamma * v_mean - x.e[d]);
+                for (unsigned int i = 0; i < n; ++i)
+                  {
+                    r[i * (dim + 1) + d] += force * weight[i];
+                    if (problem.discretisation.lumped_drag)
+                      r[i * (dim + 1) + d] += s.area * s.phi[i] * x.gamma * b * (mean - reference[i]);
+                    r[i * (dim + 1) + dim] += s.grad[i][d] * (s.area * v_mean + pspg * force);
+                  }
+              }
+          }
+      }
+
+      /** Sums over the rows of each equation of the squares of its largest terms: grad p, and eps u.grad q. */
+      void term_squares(const BlockVector &x, double &momentum, double &continuity) const
+      {
+        for (unsigned int q = 0; q < space.n_q_points(); ++q)
+          {
+            const auto             &phi  = space.shape_values()[q];
+            const double            e    = value(eps, phi);
+            std::array<double, dim> grad_p{}, flux{};
+            for (unsigned int v = 0; v < n; ++v)
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  grad_p[d] += x.block(1).local_element(cell->pressure[v]) * cell->grad[q][v][d];
+                  flux[d] += e * phi[v] * x.block(0).local_element(cell->velocity[v][d]);
+                }
+            double p2 = 0., u2 = 0.;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                p2 += grad_p[d] * grad_p[d];
+                u2 += flux[d] * flux[d];
+              }
+            momentum += p2 * cell->jxw[q] * cell->measure;
+            continuity += u2 * cell->jxw[q];
+          }
+      }
+
+    private:
+      template <typename Values>
+      double value(const std::array<double, n> &nodal, const Values &phi) const
+      {
+        double sum = 0.;
+        for (unsigned int v = 0; v < n; ++v)
+          sum += nodal[v] * phi[v];
+        return sum;
+      }
+
+      template <typename Gradients, typename Values>
+      std::array<double, n> advect(const Gradients &grad, const Values &phi) const
+      {
+        std::array<double, n> result{};
+        if (!problem.discretisation.convection)
+          return result;
+        std::array<double, dim> u{};
+        for (unsigned int v = 0; v < n; ++v)
+          for (unsigned int d = 0; d < dim; ++d)
+            u[d] += phi[v] * u_old[v][d];
+        for (unsigned int v = 0; v < n; ++v)
+          for (unsigned int d = 0; d < dim; ++d)
+            result[v] += u[d] * grad[v][d];
+        return result;
+      }
+
+      std::array<double, n> piece_weight(const PieceShape<dim> &s) const
+      {
+        std::array<double, n> weight;
+        for (unsigned int v = 0; v < n; ++v)
+          {
+            double streamline = 0.;
+            for (unsigned int d = 0; d < dim; ++d)
+              streamline += u_mean[d] * s.grad[v][d];
+            weight[v] = s.phi[v] + supg * streamline;
+          }
+        return weight;
+      }
+
+      const FluidSpace<dim>  &space;
+      const VansProblem<dim> &problem;
+
+      unsigned int                           cell_index = 0, begin = 0, end = 0;
+      const CellData<dim>                   *cell = nullptr;
+      std::array<double, n>                  eps;
+      std::array<std::array<double, dim>, n> u_old;
+      std::array<double, dim>                u_mean;
+      double                                 pspg = 0., supg = 0.;
+    };
+
+    /** Call @p action with the kernel for the mesh's kind of cell. */
+    template <int dim, typename Action>
+    void with_kernel(const FluidSpace<dim> &space, const VansProblem<dim> &problem, const Action &action)
+    {
+      if (space.n_nodes_per_cell() == dim + 1)
+        action(CellKernel<dim, dim + 1>(space, problem));
+      else
+        action(CellKernel<dim, (1 << dim)>(space, problem));
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  VansAssembler<dim>::VansAssembler(const FluidSpace<dim> &space)
+    : space(&space)
+  {}
+
+
+
+  template <int dim>
+  void VansAssembler<dim>::reinit()
+  {
+    system_matrix.clear();
+    TrilinosWrappers::BlockSparsityPattern pattern(space->owned(),
+                                                   space->owned(),
+                                                   space->relevant(),
+                                                   space->communicator());
+    DoFTools::make_sparsity_pattern(space->dof_handler(),
+                                    pattern,
+                                    space->constraints(),
+                                    false,
+                                    Utilities::MPI::this_mpi_process(space->communicator()));
+    pattern.compress();
+    system_matrix.reinit(pattern);
+  }
+
+
+
+  template <int dim>
+  void VansAssembler<dim>::assemble(const VansProblem<dim> &problem, const BlockVector &iterate, BlockVector &residual)
+  {
+    system_matrix = 0.;
+    residual      = 0.;
+    with_kernel<dim>(*space, problem, [&](auto kernel) {
+      using K                       = decltype(kernel);
+      constexpr unsigned int n      = K::n_local;
+      typename K::LocalMatrix L;
+      typename K::LocalVector b;
+      FullMatrix<double>                   local_matrix(n, n);
+      dealii::Vector<double>               local_residual(n);
+      std::vector<types::global_dof_index> local_dofs(n);
+      const auto                          &constraints = space->constraints();
+      for (unsigned int i = 0; i < space->cells().size(); ++i)
+        {
+          const CellData<dim> &cell = space->cells()[i];
+          kernel.reinit(i);
+          kernel.matrix(L);
+          b.fill(0.);
+          kernel.known_mesh(b);
+          kernel.known_pieces(b);
+          std::array<double, n> x;
+          for (unsigned int v = 0; v < n / (dim + 1); ++v)
+            {
+              for (unsigned int d = 0; d < dim; ++d)
+                x[v * (dim + 1) + d] = iterate.block(0).local_element(cell.velocity[v][d]);
+              x[v * (dim + 1) + dim] = iterate.block(1).local_element(cell.pressure[v]);
+            }
+          for (unsigned int r = 0; r < n; ++r)
+            {
+              double sum = b[r];
+              for (unsigned int c = 0; c < n; ++c)
+                {
+                  sum -= L[r][c] * x[c];
+                  local_matrix(r, c) = L[r][c];
+                }
+              local_residual(r) = sum;
+              local_dofs[r]     = cell.dofs[r];
+            }
+          constraints.distribute_local_to_global(local_matrix, local_dofs, system_matrix);
+          constraints.distribute_local_to_global(local_residual, local_dofs, residual);
+        }
+      // prescribed inflow: the boundary term of the continuity equation, with the iterate's boundary values
+      for (const auto &face : space->inflow_faces())
+        {
+          const CellData<dim> &cell = space->cells()[face.cell];
+          local_residual            = 0.;
+          for (unsigned int q = 0; q < face.phi.size(); ++q)
+            {
+              double eps = 0., flux = 0.;
+              for (unsigned int v = 0; v < n / (dim + 1); ++v)
+                {
+                  eps += problem.void_fraction->local_element(cell.node[v]) * face.phi[q][v];
+                  for (unsigned int d = 0; d < dim; ++d)
+                    flux += iterate.block(0).local_element(cell.velocity[v][d]) * face.phi[q][v] * face.normal_jxw[q][d];
+                }
+              for (unsigned int v = 0; v < n / (dim + 1); ++v)
+                local_residual(v * (dim + 1) + dim) -= eps * flux * face.phi[q][v];
+            }
+          for (unsigned int r = 0; r < n; ++r)
+            local_dofs[r] = cell.dofs[r];
+          constraints.distribute_local_to_global(local_residual, local_dofs, residual);
+        }
+    });
+    system_matrix.compress(VectorOperation::add);
+    residual.compress(VectorOperation::add);
+  }
+
+
+
+  template <int dim>
+  void VansAssembler<dim>::add_known_interphase(const VansProblem<dim> &problem,
+                                                const double            factor,
+                                                BlockVector            &right_hand_side) const
+  {
+    with_kernel<dim>(*space, problem, [&](auto kernel) {
+      using K                  = decltype(kernel);
+      constexpr unsigned int n = K::n_local;
+      typename K::LocalVector              b;
+      dealii::Vector<double>               local(n);
+      std::vector<types::global_dof_index> local_dofs(n);
+      for (unsigned int i = 0; i < space->cells().size(); ++i)
+        {
+          if (problem.solid->begin[i] == problem.solid->begin[i + 1])
+            continue;
+          kernel.reinit(i);
+          b.fill(0.);
+          kernel.known_pieces(b);
+          for (unsigned int r = 0; r < n; ++r)
+            {
+              local(r)      = factor * b[r];
+              local_dofs[r] = space->cells()[i].dofs[r];
+            }
+          space->constraints().distribute_local_to_global(local, local_dofs, right_hand_side);
+        }
+    });
+    right_hand_side.compress(VectorOperation::add);
+  }
+
+
+
+  template <int dim>
+  double VansAssembler<dim>::flux(const VansProblem<dim>  &problem,
+                                  const BlockVector       &solution,
+                                  const types::boundary_id id) const
+  {
+    double sum = 0.;
+    with_kernel<dim>(*space, problem, [&](auto kernel) {
+      using K                  = decltype(kernel);
+      constexpr unsigned int n = K::n_local;
+      typename K::LocalMatrix L;
+      typename K::LocalVector b;
+      for (const auto &[i, weight] : space->weights_at(id))
+        {
+          const CellData<dim> &cell = space->cells()[i];
+          kernel.reinit(i);
+          kernel.matrix(L);
+          b.fill(0.);
+          kernel.known_mesh(b);
+          kernel.known_pieces(b);
+          for (unsigned int v = 0; v < n / (dim + 1); ++v)
+            {
+              const unsigned int row = v * (dim + 1) + dim;
+              double             r   = b[row];
+              for (unsigned int w = 0; w < n / (dim + 1); ++w)
+                {
+                  for (unsigned int d = 0; d < dim; ++d)
+                    r -= L[row][w * (dim + 1) + d] * solution.block(0).local_element(cell.velocity[w][d]);
+                  r -= L[row][w * (dim + 1) + dim] * solution.block(1).local_element(cell.pressure[w]);
+                }
+              sum += weight[v] * r;
+            }
+        }
+    });
+    return Utilities::MPI::sum(sum, space->communicator());
+  }
+
+
+
+  template <int dim>
+  std::array<double, 2> VansAssembler<dim>::term_norms(const VansProblem<dim> &problem, const BlockVector &iterate) const
+  {
+    double momentum = 0., continuity = 0.;
+    with_kernel<dim>(*space, problem, [&](auto kernel) {
+      for (unsigned int i = 0; i < space->cells().size(); ++i)
+        {
+          kernel.reinit(i);
+          kernel.term_squares(iterate, momentum, continuity);
+        }
+    });
+    const MPI_Comm comm = space->communicator();
+    return {{std::sqrt(Utilities::MPI::sum(momentum, comm)), std::sqrt(Utilities::MPI::sum(continuity, comm))}};
+  }
+
+
+
+  template class VansAssembler<2>;
+} // namespace alluvium::fluid

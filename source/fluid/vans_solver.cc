@@ -1,0 +1,151 @@
+#include <alluvium/fluid/vans_solver.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+namespace alluvium::fluid
+{
+  using namespace dealii;
+
+  template <int dim>
+  VansSolver<dim>::VansSolver(const FluidSpace<dim> &space)
+    : space(&space)
+    , assembler(space)
+    , current()
+  {}
+
+
+
+  template <int dim>
+  void VansSolver<dim>::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Fluid");
+    prm.add_parameter("Density", properties.density, "Density rho of the fluid [kg/m^3].", Patterns::Double(1e-6));
+    prm.add_parameter("Viscosity", properties.viscosity, "Dynamic viscosity eta of the fluid [Pa s].", Patterns::Double(1e-12));
+    prm.add_parameter("Convection",
+                      discretisation.convection,
+                      "Keep u.grad u (and its stabilisation). Without it the fluid obeys the volume-averaged Stokes equations.");
+    prm.add_parameter("Lumped drag",
+                      discretisation.lumped_drag,
+                      "Row-sum lump the drag in the momentum equation. Needed for the right flux on meshes finer than a grain; "
+                      "costs pressure accuracy where drag varies strongly within a cell.");
+    linear_solver.add_parameters(prm);
+    prm.leave_subsection();
+  }
+
+
+
+  template <int dim>
+  void VansSolver<dim>::reinit()
+  {
+    assembler.reinit();
+    linear_solver.clear();
+    iterate   = space->make_field();
+    previous  = space->make_field();
+    residual  = space->make_field();
+    increment = space->make_field();
+    iterate.update_ghost_values();
+    previous.update_ghost_values();
+  }
+
+
+
+  template <int dim>
+  void VansSolver<dim>::begin_step(const BoundaryConditions<dim> &boundary_conditions, const VansProblem<dim> &problem)
+  {
+    current                = problem;
+    current.fluid          = properties;
+    current.discretisation = discretisation;
+    current.old            = &previous;
+    if (current.dt > 1.2 * dt_of_preconditioner || current.dt < dt_of_preconditioner / 1.2)
+      {
+        linear_solver.clear();
+        dt_of_preconditioner = current.dt;
+      }
+    space->apply_boundary_values(boundary_conditions, properties.density, gravity, iterate);
+  }
+
+
+
+  template <int dim>
+  void VansSolver<dim>::solve()
+  {
+    assembler.assemble(current, iterate, residual);
+    solve_increment();
+  }
+
+
+
+  template <int dim>
+  void VansSolver<dim>::remove_known_terms()
+  {
+    assembler.add_known_interphase(current, -1., residual);
+  }
+
+
+
+  template <int dim>
+  void VansSolver<dim>::solve_with_new_known_terms()
+  {
+    // the residual at the new iterate, A being the same
+    assembler.add_known_interphase(current, 1., residual);
+    solve_increment();
+  }
+
+
+
+  template <int dim>
+  void VansSolver<dim>::solve_increment()
+  {
+    std::array<double, 2> scale = assembler.term_norms(current, iterate);
+    // from rest no term has a size yet: the residual itself gives the first, u = p dt / (rho h) relates the two
+    const double residual_norm = residual.block(0).l2_norm();
+    scale[0]                   = std::max(scale[0], residual_norm);
+    const double length = std::sqrt(Utilities::MPI::max(space->cells().empty() ? 0. : space->cells().front().measure,
+                                                        space->communicator()));
+    if (scale[0] == 0.)
+      scale[0] = residual.block(1).l2_norm() * properties.density * length / current.dt;
+    if (scale[0] == 0.)
+      return; // nothing moves and nothing pushes
+    if (scale[1] < 1e-12 * scale[0] * current.dt / (properties.density * length))
+      scale[1] = scale[0] * current.dt / (properties.density * length);
+
+    report = linear_solver.solve(assembler.matrix(), residual, scale, space->constraints(), increment);
+    if (report.n_iterations > 0)
+      {
+        BlockVector product(increment);
+        assembler.matrix().block(0, 0).vmult(product.block(0), increment.block(0));
+        assembler.matrix().block(0, 1).vmult_add(product.block(0), increment.block(1));
+        assembler.matrix().block(1, 0).vmult(product.block(1), increment.block(0));
+        assembler.matrix().block(1, 1).vmult_add(product.block(1), increment.block(1));
+        residual -= product;
+        iterate.zero_out_ghost_values();
+        space->constraints().distribute(increment);
+        iterate += increment;
+        iterate.update_ghost_values();
+      }
+  }
+
+
+
+  template <int dim>
+  void VansSolver<dim>::accept()
+  {
+    previous = iterate;
+    previous.update_ghost_values();
+  }
+
+
+
+  template <int dim>
+  void VansSolver<dim>::set_solution(const BlockVector &field)
+  {
+    iterate  = field;
+    previous = field;
+    iterate.update_ghost_values();
+    previous.update_ghost_values();
+  }
+
+
+
+  template class VansSolver<2>;
+} // namespace alluvium::fluid
