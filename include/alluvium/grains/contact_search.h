@@ -1,0 +1,64 @@
+#pragma once
+
+#include <alluvium/grains/grain_arrays.h>
+#include <alluvium/grains/wall.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace alluvium::grains
+{
+  /** Two grains (i < j), or grain i and wall segment j, that may touch, and the impulse they last exchanged [N s/m]. */
+  struct ContactPair
+  {
+    std::uint32_t i, j;
+    double        rn = 0., rt = 0.;
+  };
+
+  /** Where a disc is nearest to something: unit normal from the disc towards it, and the gap [m], negative in overlap. */
+  struct ContactPoint
+  {
+    double nx, ny, gap;
+  };
+
+  /**
+   * Wall segments that know their shared ends. A disc near a shared end touches it once: it belongs to the first of the
+   * segments that meet there, and only if no other of them is nearer. So a disc and a segment have one contact or none.
+   */
+  class WallGeometry
+  {
+  public:
+    void                            set(std::vector<WallSegment> segments);
+    const std::vector<WallSegment> &segments() const { return walls; }
+
+    /**
+     * Move the walls on by @p dt [s]: by the normal part of their velocity only. The tangential part is that of a belt, it drags
+     * grains along and leaves the wall where it is.
+     */
+    void move(double dt);
+
+    /** The contact of a disc at (x, y) with radius r and segment @p k; false if another segment owns it. */
+    bool touch(std::size_t k, double x, double y, double r, ContactPoint &point) const;
+
+  private:
+    std::vector<WallSegment>                              walls;
+    std::vector<std::array<std::vector<std::uint32_t>, 2>> sharing; // other segments at ends a and b of each segment
+    bool                                                  moving = false;
+
+    void find_shared_ends();
+  };
+
+  /** All pairs that may touch, found with a uniform cell grid. Every vector is sorted by (i, j). */
+  struct ContactCandidates
+  {
+    std::vector<ContactPair> discs, walls;
+  };
+
+  /**
+   * Find all pairs of grains, and of grains and walls, with gaps below @p skin [m]. Cells are as wide as the largest grain plus
+   * the skin, so a grain's partners are in its own cell and the eight around it. Throws std::runtime_error if a grain's position
+   * is not finite.
+   */
+  ContactCandidates find_candidates(const GrainArrays &grains, const WallGeometry &walls, double skin);
+} // namespace alluvium::grains

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <alluvium/grains/contact_problem.h>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace alluvium::grains
+{
+  /**
+   * When a contact solution is good enough. Both numbers are about the natural map: how far an impulse would still move if its
+   * contact alone were solved once more, over the problem's impulse scale. So both are dimensionless, and neither is a length.
+   */
+  struct ContactTolerance
+  {
+    double       residual   = 1e-5; // root mean square over the contacts
+    double       violation  = 1e-3; // maximum over the contacts
+    unsigned int max_sweeps = 2000; // then the solver gives up, and the caller takes a smaller sub-step
+  };
+
+  /** How a solve ended. */
+  struct ContactSolution
+  {
+    bool         converged = false;
+    unsigned int sweeps    = 0;  // sweeps over all contacts
+    double       residual = 0., violation = 0.;
+  };
+
+  /**
+   * Interface of the plug-ins that solve a ContactProblem: from free velocities and warm impulses to final ones. They must be
+   * deterministic and may not communicate: every rank solves the same problem and must find the same bits.
+   */
+  class ContactSolver
+  {
+  public:
+    virtual ~ContactSolver() = default;
+    virtual void            add_parameters(dealii::ParameterHandler &) {}
+    virtual ContactSolution solve(ContactProblem &problem, const ContactTolerance &tolerance) const = 0;
+  };
+
+  /** The natural-map residual of @p problem as it stands: fills `residual` and `violation` of @p solution. */
+  void measure_residual(const ContactProblem &problem, ContactSolution &solution);
+} // namespace alluvium::grains

@@ -1,0 +1,196 @@
+// Cost and quality of the contact step on settled beds.
+//
+//   benchmark_contacts [--solver NAME] [--time SECONDS] [--dt DT]... [--shake V] [BED.bin]...
+//
+// Without beds it settles its own, of 2,000 and 10,000 discs. A bed file is int32 N, double width, then N rows of x y radius vx vy
+// spin * radius; its walls are x = 0, x = width and y = 0. --shake gives every grain a random velocity up to V m/s at the start of
+// every millisecond, as a fluidised bed would.
+#include <alluvium/grains/contact_stepper.h>
+#include <alluvium/grains/deposit.h>
+#include <alluvium/utilities/plugin.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <random>
+#include <string>
+
+using namespace alluvium;
+using namespace alluvium::grains;
+
+namespace
+{
+  constexpr double density = 2630., gravity = 9.81;
+
+  struct Bed
+  {
+    std::string name;
+    double      width = 0.;
+    GrainArrays grains;
+
+    void add(const double x, const double y, const double r, const double vx, const double vy, const double omega)
+    {
+      const std::size_t k = grains.n();
+      grains.resize(k + 1);
+      grains.id[k]     = k;
+      grains.x[k]      = x;
+      grains.y[k]      = y;
+      grains.radius[k] = r;
+      grains.mass[k]   = density * M_PI * r * r;
+      grains.vx[k]     = vx;
+      grains.vy[k]     = vy;
+      grains.omega[k]  = omega;
+    }
+  };
+
+  double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+  Bed read_bed(const std::string &file)
+  {
+    std::ifstream in(file, std::ios::binary);
+    Bed           bed;
+    bed.name       = file.substr(file.rfind('/') + 1);
+    std::int32_t n = 0;
+    in.read(reinterpret_cast<char *>(&n), sizeof n);
+    in.read(reinterpret_cast<char *>(&bed.width), sizeof bed.width);
+    for (std::int32_t k = 0; k < n; ++k)
+      {
+        double row[6];
+        in.read(reinterpret_cast<char *>(row), sizeof row);
+        bed.add(row[0], row[1], row[2], row[3], row[4], row[5] / row[2]);
+      }
+    if (!in)
+      {
+        std::fprintf(stderr, "%s is no bed\n", file.c_str());
+        std::exit(1);
+      }
+    return bed;
+  }
+
+  Bed settle_bed(const int n)
+  {
+    Bed bed;
+    bed.name  = "own " + std::to_string(n);
+    bed.width = std::ceil(std::sqrt(n)) * 1.1 * 2e-4;
+    dealii::ParameterHandler prm;
+    auto                     deposit = Registry<Deposit>::entries().at("settled bed").create();
+    deposit->add_parameters(prm);
+    prm.parse_input_from_string("set Number of grains = " + std::to_string(n) + "\nset Cache folder =\n");
+    DepositContext context;
+    context.lower         = {{0., 0.}};
+    context.upper         = {{bed.width, 3. * bed.width}};
+    context.density       = density;
+    context.gravity       = {{0., -gravity}};
+    const double     t    = cpu_seconds();
+    for (const Seed &s : deposit->make(context))
+      bed.add(s.x, s.y, s.radius, s.vx, s.vy, s.omega);
+    std::printf("settled %zu discs in %.2f s CPU\n", bed.grains.n(), cpu_seconds() - t);
+    return bed;
+  }
+
+  void measure(const Bed &bed, const std::string &solver, const double dt, const double time, const double shake)
+  {
+    GrainArrays    g = bed.grains;
+    ContactStepper stepper;
+    dealii::ParameterHandler prm;
+    stepper.add_parameters(prm);
+    prm.set("Contact solver", solver);
+    const double w = bed.width, h = 1e3 * w;
+    stepper.set_walls({{{{0., h}}, {{0., 0.}}, {{0., 0.}}, "left"},
+                       {{{0., 0.}}, {{w, 0.}}, {{0., 0.}}, "bottom"},
+                       {{{w, 0.}}, {{w, h}}, {{0., 0.}}, "right"}});
+    GrainLoads loads;
+    loads.reset(g.n());
+    double weight = 0., diameter = 0.;
+    for (std::size_t k = 0; k < g.n(); ++k)
+      {
+        loads.fy[k] = -g.mass[k] * gravity;
+        weight += g.mass[k] * gravity;
+        diameter += 2. * g.radius[k] / g.n();
+      }
+
+    std::mt19937_64 random(1);
+    const int       steps = static_cast<int>(std::lround(time / dt)), every = std::max(1, static_cast<int>(1e-3 / dt));
+    unsigned long long sweeps = 0, updates = 0;
+    unsigned int       halvings = 0, unconverged = 0, substeps = 0;
+    double             mean = 0., largest = 0., support = 0., seconds = 0.;
+    ContactReport      first, report;
+    for (int s = -1; s < steps; ++s) // the first step starts cold and does not count
+      {
+        if (shake > 0. && s >= 0 && s % every == 0)
+          for (std::size_t k = 0; k < g.n(); ++k)
+            {
+              g.vx[k] = shake * (2. * (random() >> 11) * 0x1p-53 - 1.);
+              g.vy[k] = shake * (2. * (random() >> 11) * 0x1p-53 - 1.);
+            }
+        const double t = cpu_seconds();
+        report         = stepper.advance(g, loads, dt, {{0., -gravity}});
+        if (s < 0)
+          {
+            first = report;
+            continue;
+          }
+        seconds += cpu_seconds() - t;
+        sweeps += report.n_sweeps;
+        updates += report.n_updates;
+        halvings += report.n_halvings;
+        unconverged += report.n_unconverged;
+        substeps += report.n_substeps;
+        mean += report.mean_penetration / steps;
+        largest = std::max(largest, report.max_penetration);
+        double f = 0.;
+        for (const auto &[name, force] : report.wall_force)
+          f -= force[1];
+        support += f / weight / steps;
+      }
+    std::printf("%-20s dt %.0e: cold %5llu sweeps; then sweeps/step %7.1f  ns/update %5.1f  CPU/0.01 s %.4f s  ms/step %.3f  "
+                "mean pen/d %.1e  max %.1e  support %.6f  vmax/gdt %.1e  contacts %u substeps %u halvings %u unconverged %u\n",
+                bed.name.c_str(),
+                dt,
+                first.n_sweeps,
+                double(sweeps) / steps,
+                1e9 * seconds / std::max(1ull, updates),
+                seconds * 0.01 / time,
+                1e3 * seconds / steps,
+                mean / diameter,
+                largest / diameter,
+                support,
+                report.max_velocity / (gravity * dt),
+                report.n_contacts,
+                substeps,
+                halvings,
+                unconverged);
+  }
+} // namespace
+
+int main(int argc, char **argv)
+{
+  std::string         solver = "accelerated Gauss-Seidel";
+  double              time = 0.05, shake = 0.;
+  std::vector<double> dts;
+  std::vector<Bed>    beds;
+  for (int k = 1; k < argc; ++k)
+    {
+      const std::string a = argv[k];
+      if (a == "--solver" && k + 1 < argc)
+        solver = argv[++k];
+      else if (a == "--time" && k + 1 < argc)
+        time = std::atof(argv[++k]);
+      else if (a == "--dt" && k + 1 < argc)
+        dts.push_back(std::atof(argv[++k]));
+      else if (a == "--shake" && k + 1 < argc)
+        shake = std::atof(argv[++k]);
+      else
+        beds.push_back(read_bed(a));
+    }
+  if (beds.empty())
+    for (const int n : {2000, 10000})
+      beds.push_back(settle_bed(n));
+  if (dts.empty())
+    dts = {1e-4, 1e-3};
+  for (const Bed &bed : beds)
+    for (const double dt : dts)
+      measure(bed, solver, dt, time, shake);
+}
