@@ -1,0 +1,16 @@
+#pragma once
+
+#include <mpi.h>
+
+namespace alluvium
+{
+  /**
+   * From now on a SIGINT, SIGTERM or SIGUSR1 asks the run to stop after its present step instead of killing it. A
+   * second one of the same kind kills, in case the step never ends. (mpirun forwards SIGUSR1; of the others it gives a
+   * second's grace only.)
+   */
+  void install_stop_signals();
+
+  /** Whether any rank was asked to stop. Collective. */
+  bool stop_requested(MPI_Comm communicator);
+} // namespace alluvium

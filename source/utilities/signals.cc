@@ -1,0 +1,33 @@
+#include <alluvium/utilities/signals.h>
+
+#include <csignal>
+
+namespace alluvium
+{
+  namespace
+  {
+    volatile std::sig_atomic_t stop_signal = 0;
+
+    extern "C" void remember_signal(const int signal)
+    {
+      stop_signal = signal;
+    }
+  } // namespace
+
+  void install_stop_signals()
+  {
+    struct sigaction action = {};
+    action.sa_handler       = remember_signal;
+    sigemptyset(&action.sa_mask);
+    action.sa_flags = SA_RESTART | SA_RESETHAND; // RESETHAND: the second one kills
+    for (const int signal : {SIGINT, SIGTERM, SIGUSR1})
+      sigaction(signal, &action, nullptr);
+  }
+
+  bool stop_requested(MPI_Comm communicator)
+  {
+    int mine = stop_signal != 0, any = 0;
+    MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_LOR, communicator);
+    return any != 0;
+  }
+} // namespace alluvium
