@@ -31,14 +31,14 @@ namespace alluvium::geometry
       }
     if (polygon.n == 3)
       {
-        // The edge of a triangle that closes it is its fourth; the third, of length zero, gets the direction of the second.
+        // The edge that closes a triangle becomes its fourth; the third, of length zero, takes the second's direction.
         tangent_x[3] = tangent_x[2];
         tangent_y[3] = tangent_y[2];
         tangent_x[2] = tangent_x[1];
         tangent_y[2] = tangent_y[1];
       }
 
-    // Convex: no turn to the right (a straight angle may be one by round-off), and the two triangles of the fan are positive.
+    // Four turns to the left at most make one round: no turn to the right is enough. Straight angles have round-off.
     for (unsigned i = 0; i < 4; ++i)
       {
         const unsigned j = (i + 1) % 4;
@@ -61,7 +61,8 @@ namespace alluvium::geometry
         yy += twice / 12 * (ay * ay + ay * by + by * by);
       }
     if (!(sum > 0))
-      throw std::invalid_argument("A cell to cut discs with must have an area above zero, its vertices counter-clockwise.");
+      throw std::invalid_argument(
+        "A cell to cut discs with must have an area above zero, its vertices counter-clockwise.");
     area            = sum;
     centroid_offset = {{mx / sum, my / sum}};
     second_moments  = {{xx - mx * mx / sum, xy - mx * my / sum, yy - my * my / sum}};

@@ -49,34 +49,39 @@ namespace alluvium::geometry
     }
 
     /**
-     * Half of the angle 2a minus sin(a) cos(a), from s = sin(a) >= 0 and @p sc = sin(a) cos(a): the area between chord and arc.
+     * Area between chord and arc on the unit circle. With a half the angle of the arc, 0 <= a <= pi: @p s2 = sin(a)^2,
+     * @p sc = sin(a) cos(a).
      */
     inline double segment_area(const double s2, const double sc)
     {
       const double s = std::sqrt(s2);
       if (s2 < 0.02 && sc >= 0.)
         {
-          // 2 sum binom(2k,k)/4^k s^(2k+3)/(2k+3): without the cancellation
-          const double z = s2;
-          return s * z *
-                 (2. / 3 +
-                  z * (1. / 5 +
-                       z * (3. / 28 +
-                            z * (5. / 72 +
-                                 z * (35. / 704 + z * (63. / 1664 + z * (231. / 7680 + z * (429. / 17408 + z * (6435. / 311296)))))))));
+          // a - sin(a) cos(a) without its cancellation: sum over k of 2 binom(2k, k)/4^k s^(2k + 3)/(2k + 3)
+          constexpr double c[] = {
+            2. / 3, 1. / 5, 3. / 28, 5. / 72, 35. / 704, 63. / 1664, 231. / 7680, 429. / 17408, 6435. / 311296};
+          double sum = c[8];
+          for (int k = 7; k >= 0; --k)
+            sum = sum * s2 + c[k];
+          return s * s2 * sum;
         }
       return std::atan2(s, sc / s) - sc;
     }
 
     /**
-     * Between the chord from @p e to @p f, both on the unit circle, and the arc from e counter-clockwise to f; about the circle's
-     * centre. With a half the angle of the arc, s = sin(a), c = cos(a) and u the unit normal of the chord, the first moment is
-     * 2/3 s^3 u and the second (S/4 - s^3 c/6) 1 + 2/3 s^3 c uu, S the area; s u is half the chord, turned.
+     * Between the chord from e to f, both on the unit circle, and the arc from e counter-clockwise to f; about the
+     * circle's centre. With s = sin(a), c = cos(a), a as above, and u the unit normal of the chord, the first moment is
+     * 2/3 s^3 u and the second (S/4 - s^3 c/6) 1 + 2/3 s^3 c uu, S the @p area. The chord, turned, is 2 s u.
      */
-    inline Moments
-    circular_segment(const double ex, const double ey, const double fx, const double fy, const double area, const double s2, const double sc)
+    inline Moments circular_segment(const double ex,
+                                    const double ey,
+                                    const double fx,
+                                    const double fy,
+                                    const double area,
+                                    const double s2,
+                                    const double sc)
     {
-      const double ux = fy - ey, uy = ex - fx; // 2 s u
+      const double ux = fy - ey, uy = ex - fx;
       const double diagonal = area * (1. / 4) - s2 * sc * (1. / 6);
       return {area,
               s2 * (1. / 3) * ux,
@@ -88,15 +93,15 @@ namespace alluvium::geometry
   } // namespace
 
 
-
   Overlap overlap(const Disc &disc, const PreparedPolygon &cell)
   {
     const double cx = disc.centre[0], cy = disc.centre[1], r = disc.radius;
     if (cell.lower[0] - cx >= r || cx - cell.upper[0] >= r || cell.lower[1] - cy >= r || cy - cell.upper[1] >= r)
       return {};
 
-    // From here on in units of r, about the centre. What two cells share comes out bitwise alike in both of them (up to the sign):
-    // the vertices, the predicate `inside`, which alone decides what is cut, and the distance of an edge from the centre.
+    // From here on in units of r, about the centre. What two cells share comes out bitwise alike in both of them (up to
+    // the sign): the vertices, the predicate `inside`, which alone decides what is cut, and the distance of an edge
+    // from the centre.
     const double scale = 1. / r;
     double       x[4], y[4], distance[4];
     bool         inside[4];
@@ -109,8 +114,8 @@ namespace alluvium::geometry
     if (inside[0] && inside[1] && inside[2] && inside[3])
       {
         Overlap result;
-        result.area = cell.area;
-        result.arm  = {{cell.x[0] - cx + cell.centroid_offset[0], cell.y[0] - cy + cell.centroid_offset[1]}};
+        result.area           = cell.area;
+        result.arm            = {{cell.x[0] - cx + cell.centroid_offset[0], cell.y[0] - cy + cell.centroid_offset[1]}};
         result.centroid       = {{cell.x[0] + cell.centroid_offset[0], cell.y[0] + cell.centroid_offset[1]}};
         result.second_moments = cell.second_moments;
         return result;
@@ -122,43 +127,35 @@ namespace alluvium::geometry
         distance[i]      = 0.5 * ((x[i] + x[j]) * cell.tangent_y[i] - (y[i] + y[j]) * cell.tangent_x[i]);
       }
 
-    // The corners of the piece, counter-clockwise; leaving[k] when the boundary follows the circle from corner k to the next.
-    double   px[8], py[8];
-    unsigned edge[8]; // that the corner lies on
-    bool     leaving[8];
-    unsigned n = 0;
+    // The corners of the piece, counter-clockwise; leaving[k] if the circle, not an edge, leads from corner k to the
+    // next.
+    double     px[8], py[8];
+    unsigned   edge[8]; // that the corner lies on
+    bool       leaving[8];
+    unsigned   n          = 0;
+    const auto add_corner = [&](const double x, const double y, const unsigned i, const bool leaves) {
+      px[n]      = x;
+      py[n]      = y;
+      edge[n]    = i;
+      leaving[n] = leaves;
+      ++n;
+    };
     for (unsigned i = 0; i < 4; ++i)
       {
-        const unsigned j = (i + 1) & 3;
+        const unsigned j  = (i + 1) & 3;
+        const double   tx = cell.tangent_x[i], ty = cell.tangent_y[i];
+        // An edge between an inside and an outside vertex is cut once, one between two outside vertices twice or never.
         if (inside[i] != inside[j] ||
-            (!inside[i] && std::abs(distance[i]) < 1. && x[i] * cell.tangent_x[i] + y[i] * cell.tangent_y[i] < 0. &&
-             x[j] * cell.tangent_x[i] + y[j] * cell.tangent_y[i] > 0.))
+            (!inside[i] && std::abs(distance[i]) < 1. && x[i] * tx + y[i] * ty < 0. && x[j] * tx + y[j] * ty > 0.))
           {
-            const double half = std::sqrt(std::max(0., (1. - distance[i]) * (1. + distance[i])));
+            const double half = std::sqrt(std::max(0., (1. - distance[i]) * (1. + distance[i]))); // of the chord
             if (!inside[i])
-              {
-                px[n]      = distance[i] * cell.tangent_y[i] - half * cell.tangent_x[i];
-                py[n]      = -distance[i] * cell.tangent_x[i] - half * cell.tangent_y[i];
-                edge[n]    = i;
-                leaving[n] = false;
-                ++n;
-              }
+              add_corner(distance[i] * ty - half * tx, -distance[i] * tx - half * ty, i, false);
             if (!inside[j])
-              {
-                px[n]      = distance[i] * cell.tangent_y[i] + half * cell.tangent_x[i];
-                py[n]      = -distance[i] * cell.tangent_x[i] + half * cell.tangent_y[i];
-                edge[n]    = i;
-                leaving[n] = true;
-                ++n;
-              }
+              add_corner(distance[i] * ty + half * tx, -distance[i] * tx + half * ty, i, true);
           }
         if (inside[j])
-          {
-            px[n]      = x[j];
-            py[n]      = y[j];
-            leaving[n] = false;
-            ++n;
-          }
+          add_corner(x[j], y[j], i, false);
       }
 
     if (n == 0)
@@ -205,40 +202,22 @@ namespace alluvium::geometry
           sum += shifted(circular_segment(px[k], py[k], px[l], py[l], area, s2, sc), px[0], py[0]);
         }
 
-    const double cell_area = cell.area * scale * scale;
-    const double small     = std::min(1., cell_area);
-    if (!(sum.area > 1e-15 * small))
+    // Below this an area is round-off (and NaN is no area).
+    if (!(sum.area > 1e-15 * std::min(1., cell.area * scale * scale)))
       return {};
 
-    double gx = sum.x / sum.area, gy = sum.y / sum.area;
-    double xx = sum.xx - sum.x * gx, xy = sum.xy - sum.x * gy, yy = sum.yy - sum.y * gy;
-    gx += px[0];
-    gy += py[0];
-    if (sum.area < 1e-10 * small)
-      {
-        // The centroid of a sliver is its round-off: back to the nearest point of cell and disc. So are its second moments.
-        for (unsigned pass = 0; pass < 3; ++pass)
-          {
-            for (unsigned i = 0; i < 4; ++i)
-              {
-                const double outside =
-                  std::min(0., distance[i] + cell.tangent_x[i] * gy - cell.tangent_y[i] * gx);
-                gx += outside * cell.tangent_y[i];
-                gy -= outside * cell.tangent_x[i];
-              }
-            const double length = std::max(1., std::sqrt(gx * gx + gy * gy));
-            gx /= length;
-            gy /= length;
-          }
-        xx                  = std::max(0., xx);
-        yy                  = std::max(0., yy);
-        const double bound = std::sqrt(xx * yy);
-        xy                  = std::min(bound, std::max(-bound, xy));
-      }
+    // About a corner the centroid is an average of points of the piece: even that of a sliver lies inside.
+    const double gx = sum.x / sum.area, gy = sum.y / sum.area;
+
+    // Of thin pieces the second moments are round-off: keep them positive semi-definite.
+    const double xx    = std::max(0., sum.xx - sum.x * gx);
+    const double yy    = std::max(0., sum.yy - sum.y * gy);
+    const double bound = std::sqrt(xx * yy);
+    const double xy    = std::min(bound, std::max(-bound, sum.xy - sum.x * gy));
 
     Overlap result;
     result.area           = sum.area * (r * r);
-    result.arm            = {{gx * r, gy * r}};
+    result.arm            = {{(px[0] + gx) * r, (py[0] + gy) * r}};
     result.centroid       = {{cx + result.arm[0], cy + result.arm[1]}};
     result.second_moments = {{xx * (r * r) * (r * r), xy * (r * r) * (r * r), yy * (r * r) * (r * r)}};
     return result;

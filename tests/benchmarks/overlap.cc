@@ -1,5 +1,5 @@
-// Cost of one overlap by the kind of piece, for the mesh `shape` (0 squares, 1 triangles, 2 distorted) and h/d = 8 ... 1/8:
-// nanoseconds a call, over random discs whose pairs are stored beforehand in the order of the discs.
+// Nanoseconds for one overlap, by mesh, kind of piece and h/d = 8 ... 1/8, over random discs. The pairs (disc, cell)
+// are found beforehand and taken in the order of the discs, so that branches are as unpredictable as in real use.
 #include <alluvium/geometry/disc_polygon_overlap.h>
 
 #include <benchmark/benchmark.h>
@@ -17,11 +17,11 @@ namespace
 {
   enum Kind
   {
-    cut,          // part of the cell, part of the disc
+    cut, // part of the cell, part of the disc
     cell_in_disc,
     disc_in_cell,
-    disjoint,     // nothing in common, for cells within a ring about the disc
-    all           // whatever meets the disc's bounding box, as a caller with a search grid sees it
+    disjoint, // nothing in common, for cells within a ring about the disc
+    all       // whatever meets the disc's bounding box, as a caller with a search grid sees it
   };
 
   Kind kind_of(const Disc &disc, const PreparedPolygon &cell)
@@ -45,8 +45,10 @@ namespace
         const Disc disc = random_disc(mesh, 0.5 / ratio, rng);
         mesh.for_each_near(disc, [&](const unsigned c) {
           const PreparedPolygon &cell = mesh.cells[c];
-          const bool             near = std::abs(cell.lower[0] + cell.upper[0] - 2 * disc.centre[0]) < 2 * disc.radius + cell.upper[0] - cell.lower[0] &&
-                            std::abs(cell.lower[1] + cell.upper[1] - 2 * disc.centre[1]) < 2 * disc.radius + cell.upper[1] - cell.lower[1];
+          const bool             near = std::abs(cell.lower[0] + cell.upper[0] - 2 * disc.centre[0]) <
+                              2 * disc.radius + cell.upper[0] - cell.lower[0] &&
+                            std::abs(cell.lower[1] + cell.upper[1] - 2 * disc.centre[1]) <
+                              2 * disc.radius + cell.upper[1] - cell.lower[1];
           if (kind == all ? near : kind_of(disc, cell) == kind)
             pairs.emplace_back(disc, c);
         });
@@ -67,7 +69,6 @@ namespace
 } // namespace
 
 
-
 int main(int argc, char **argv)
 {
   const std::pair<Kind, const char *> kinds[] = {
@@ -79,8 +80,9 @@ int main(int argc, char **argv)
           {
             std::string label = std::to_string(ratio);
             label.erase(label.find_last_not_of("0.") + 1);
-            benchmark::RegisterBenchmark((std::string(name(shape)) + "/" + kind.second + "/h per d " + label).c_str(),
-                                         [=](benchmark::State &state) { time_overlap(state, shape, ratio, kind.first); });
+            benchmark::RegisterBenchmark(
+              (std::string(name(shape)) + "/" + kind.second + "/h per d " + label).c_str(),
+              [=](benchmark::State &state) { time_overlap(state, shape, ratio, kind.first); });
           }
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();

@@ -16,9 +16,9 @@ namespace overlap_test
   };
 
   /**
-   * The overlap by another road than the library's, in extended precision: for each edge the part of the disc between the edge and
-   * the centre, which is a triangle where the edge runs inside the circle and a sector where it runs outside. No decision depends on
-   * which vertices are inside.
+   * The overlap by another road than the library's, in extended precision: for each edge the part of the disc between
+   * the edge and the centre, which is a triangle where the edge runs inside the circle and a sector where it runs
+   * outside. No decision depends on which vertices are inside.
    */
   inline ReferenceMoments reference_overlap(const Disc &disc, const ConvexPolygon &cell)
   {
@@ -47,7 +47,8 @@ namespace overlap_test
     for (unsigned i = 0; i < cell.n; ++i)
       {
         const auto coordinate = [&](const unsigned k, const unsigned c) {
-          return (static_cast<real>(cell.vertex[k][c]) - static_cast<real>(disc.centre[c])) / static_cast<real>(disc.radius);
+          return (static_cast<real>(cell.vertex[k][c]) - static_cast<real>(disc.centre[c])) /
+                 static_cast<real>(disc.radius);
         };
         const unsigned j  = (i + 1) % cell.n;
         const real     ax = coordinate(i, 0), ay = coordinate(i, 1), bx = coordinate(j, 0), by = coordinate(j, 1);

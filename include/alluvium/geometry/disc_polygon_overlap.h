@@ -17,15 +17,16 @@ namespace alluvium::geometry
   {
     double                area           = 0.;             // [m^2]
     Point2                centroid       = {{0., 0.}};     // [m]
-    std::array<double, 3> second_moments = {{0., 0., 0.}}; // xx, xy, yy: integrals of (x-cx)(y-cy) etc. over the piece [m^4]
-    Point2                arm            = {{0., 0.}};     // centroid minus disc centre [m], free of the centre's round-off: for torques
+    std::array<double, 3> second_moments = {{0., 0., 0.}}; // integrals of (x-cx)^2 etc., xx, xy, yy [m^4]
+    Point2                arm            = {{0., 0.}};     // centroid minus disc centre, all digits good [m]
   };
 
   /**
-   * Area, centroid and second moments of @p disc cut by @p cell, exact to round-off. Over the cells of a mesh that covers the disc,
-   * the areas add up to pi r^2, the first moments (area times arm) to zero and the second moments to those of the disc, to 1e-14
-   * relative to pi r^2, pi r^3 and pi r^4, wherever the circle meets vertices and edges. Pieces below 1e-15 min(r^2, cell area) are
-   * dropped; the centroid lies in the disc and in the cell, to round-off. @p disc must have a finite centre and a radius above zero.
+   * Area, centroid and second moments of the part of @p disc inside @p cell, exact to round-off: 1e-13 of the matching
+   * power of min(r, cell size). Over the cells of a mesh that covers the disc, the areas add up to pi r^2, area times
+   * arm to zero and the second moments (moved to the disc's centre) to the disc's own, to 1e-14 of pi r^2, pi r^3 and
+   * pi r^4/4, wherever the circle meets vertices and edges. Pieces below 1e-15 min(r^2, cell area) are dropped; of all
+   * others, slivers too, the centroid lies in the disc and in the cell. The disc's radius must be above zero.
    */
   Overlap overlap(const Disc &disc, const PreparedPolygon &cell);
 } // namespace alluvium::geometry
