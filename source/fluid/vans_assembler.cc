@@ -65,9 +65,16 @@ namespace alluvium::fluid
 
       void matrix(LocalMatrix &L) const
       {
-        const double rho = problem.fluid.density, eta = problem.fluid.viscosity, dt = problem.dt;
         for (auto &row : L)
           row.fill(0.);
+        add_mesh(L);
+        add_pieces(L);
+      }
+
+      /** The terms integrated over the cell. */
+      void add_mesh(LocalMatrix &L) const
+      {
+        const double rho = problem.fluid.density, eta = problem.fluid.viscosity, dt = problem.dt;
         for (unsigned int q = 0; q < space.n_q_points(); ++q)
           {
             const auto  &phi  = space.shape_values()[q];
@@ -101,6 +108,11 @@ namespace alluvium::fluid
                   L[i * (dim + 1) + dim][j * (dim + 1) + dim] += jxw * pspg * grad_grad;
                 }
           }
+      }
+
+      /** The terms of the pieces: drag, the solid's share of the pressure gradient, its velocity in the continuity equation. */
+      void add_pieces(LocalMatrix &L) const
+      {
         for (unsigned int k = begin; k < end; ++k)
           {
             const PieceShape<dim>    &s = problem.solid->shape[k];
@@ -450,6 +462,46 @@ namespace alluvium::fluid
         }
     });
     return Utilities::MPI::sum(sum, space->communicator());
+  }
+
+
+
+  template <int dim>
+  std::array<double, dim> VansAssembler<dim>::interphase_force(const VansProblem<dim> &problem,
+                                                               const BlockVector      &solution) const
+  {
+    std::array<double, dim> sum{};
+    with_kernel<dim>(*space, problem, [&](auto kernel) {
+      using K                  = decltype(kernel);
+      constexpr unsigned int n = K::n_local;
+      typename K::LocalMatrix L;
+      typename K::LocalVector r;
+      for (unsigned int i = 0; i < space->cells().size(); ++i)
+        {
+          const CellData<dim> &cell = space->cells()[i];
+          kernel.reinit(i);
+          for (auto &row : L)
+            row.fill(0.);
+          r.fill(0.);
+          kernel.add_pieces(L);
+          kernel.known_pieces(r);
+          for (unsigned int v = 0; v < n / (dim + 1); ++v)
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                const unsigned int row = v * (dim + 1) + d;
+                sum[d] += r[row];
+                for (unsigned int w = 0; w < n / (dim + 1); ++w)
+                  {
+                    for (unsigned int e = 0; e < dim; ++e)
+                      sum[d] -= L[row][w * (dim + 1) + e] * solution.block(0).local_element(cell.velocity[w][e]);
+                    sum[d] -= L[row][w * (dim + 1) + dim] * solution.block(1).local_element(cell.pressure[w]);
+                  }
+              }
+        }
+    });
+    for (double &s : sum)
+      s = Utilities::MPI::sum(s, space->communicator());
+    return sum;
   }
 
 

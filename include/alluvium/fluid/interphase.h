@@ -31,7 +31,7 @@ namespace alluvium::fluid
     double                  compliance = 0.; // [m^4/(N s)]
     std::array<double, dim> a          = {}; // known part of the solid velocity [m/s]
     std::array<double, dim> e          = {}; // explicit force density on the solid [N/m^3]
-    std::uint8_t            reference  = 0;  // which of the reference velocity fields u_ref is
+    std::uint8_t            reference  = 0;  // which of VansProblem's reference velocity fields u_ref is; 0: none, u_ref = 0
   };
 
   /** The solid as the fluid sees it: pieces sorted by cell, in the order of FluidSpace::cells(). */

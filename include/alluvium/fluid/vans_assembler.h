@@ -31,7 +31,7 @@ namespace alluvium::fluid
     const Vector                        *void_fraction;            // nodal
     const BlockVector                   *old;                      // u^n (block 0)
     const InterphaseTerms<dim>          *solid;
-    std::array<const Vector *, 2>        reference = {{nullptr, nullptr}}; // velocity fields u_ref of the pieces
+    std::array<const Vector *, 3>        reference = {{nullptr, nullptr, nullptr}}; // u_ref of the pieces; [0] stays null
     const dealii::Function<dim>         *body_force  = nullptr;    // [N/m^3], dim components; for manufactured solutions
     const dealii::Function<dim>         *mass_source = nullptr;    // [1/s]
   };
@@ -63,6 +63,12 @@ namespace alluvium::fluid
      * leaves is then zero to the solver's tolerance. Collective.
      */
     double flux(const VansProblem<dim> &problem, const BlockVector &solution, const dealii::types::boundary_id id) const;
+
+    /**
+     * Sum over all nodes of what the pieces put into the momentum equation [N/m]: minus the sum of the forces on the grains, if the
+     * third law holds. Collective.
+     */
+    std::array<double, dim> interphase_force(const VansProblem<dim> &problem, const BlockVector &solution) const;
 
     const dealii::TrilinosWrappers::BlockSparseMatrix &matrix() const { return system_matrix; }
 

@@ -44,6 +44,9 @@ namespace alluvium::fluid
     /** Outflow through a boundary with the latest solution and terms [m^2/s]. */
     double flux(const dealii::types::boundary_id id) const { return assembler.flux(current, iterate, id); }
 
+    /** What the fluid received from the pieces in the latest solve [N/m]. */
+    std::array<double, dim> interphase_force() const { return assembler.interphase_force(current, iterate); }
+
     const BlockVector &solution() const { return iterate; }
     const BlockVector &old() const { return previous; }
     /** For transfer, restart and initial values; the caller sets ghosts. */

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <alluvium/coupling/drag_law.h>
+#include <alluvium/coupling/time_scheme.h>
+#include <alluvium/fluid/vans_solver.h>
+
+namespace alluvium::coupling
+{
+  /** What a step's exchange looked like; sums over all ranks. */
+  struct CouplingReport
+  {
+    double                eps_min = 1., eps_max = 1.;
+    double                clipped_volume = 0.;               // [m^2], see OverlapMap::void_fraction()
+    std::array<double, 2> force_on_grains = {{0., 0.}};      // what the fluid gave the grains, weight of displaced fluid aside [N/m]
+    std::array<double, 2> force_on_fluid  = {{0., 0.}};      // what the fluid's equations received [N/m]; only from audit()
+    double                force_scale = 0.;                  // sum of |force| over the grains [N/m]
+    std::size_t           n_pieces = 0;
+    unsigned int          n_iterations = 0;                  // linear, over all sweeps
+  };
+
+  /**
+   * One coupled fluid step: cut the grains, find the void fraction and the drag, solve the fluid with the grains' predicted velocities,
+   * and give the loads to the grains.
+   */
+  class Coupling
+  {
+  public:
+    static constexpr int dim = 2;
+
+    Coupling(const fluid::FluidSpace<dim> &space, fluid::VansSolver<dim> &solver);
+
+    void add_parameters(dealii::ParameterHandler &prm);
+    /** Check what the parameter handler's patterns cannot. */
+    void parse_parameters();
+
+    /** The space has been rebuilt. */
+    void reinit();
+
+    /** Cut @p grains and find the void fraction; step() does it by itself. */
+    void update_void_fraction(const grains::GrainArrays &grains);
+
+    /**
+     * Solve the fluid from t^n to t^n + @p dt and fill @p loads. @p boundary_conditions are at the new time. @p fixed grains neither
+     * move nor yield. Collective.
+     */
+    void step(const fluid::BoundaryConditions<dim> &boundary_conditions,
+              const grains::GrainArrays            &grains,
+              const std::vector<std::uint8_t>      &touched,
+              const double                          dt,
+              const bool                            fixed,
+              grains::GrainLoads                   &loads);
+
+    /** Complete the report with the sums that cost an assembly. */
+    void audit();
+
+    const CouplingReport                     &report() const { return last; }
+    const fluid::Vector                      &void_fraction() const { return eps; }
+    const OverlapMap                         &overlap() const { return map; }
+    /** Force of the fluid on each grain in the last step, buoyancy of the hydrostatic pressure aside [N/m]; replicated. */
+    const std::vector<std::array<double, 2>> &fluid_force() const { return force; }
+    /** The velocity v* that the fluid saw, averaged over each grain's pieces [m/s]; replicated. */
+    const std::vector<std::array<double, 2>> &predicted_velocity() const { return predicted; }
+    const DragLaw                            &drag_law() const { return drag_choice.get(); }
+
+    OverlapSettings settings;
+
+  private:
+    void find_drag(CouplingState &state) const;
+    void collect_forces(const CouplingState &state);
+
+    const fluid::FluidSpace<dim> *space;
+    fluid::VansSolver<dim>       *solver;
+    PluginChoice<DragLaw>         drag_choice;
+    PluginChoice<TimeScheme>      scheme_choice;
+    std::string                   filter_text = "2 d", rule_text = "moments";
+    double                        eps_floor = 0.01;
+
+    OverlapMap                         map;
+    fluid::Vector                      eps;
+    fluid::BlockVector                 latest_sweep;
+    CouplingReport                     last;
+    std::vector<std::array<double, 2>> force, predicted;
+  };
+} // namespace alluvium::coupling

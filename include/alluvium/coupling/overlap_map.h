@@ -1,0 +1,64 @@
+#pragma once
+
+#include <alluvium/fluid/fluid_space.h>
+#include <alluvium/fluid/interphase.h>
+#include <alluvium/geometry/disc_polygon_overlap.h>
+#include <alluvium/grains/grain_arrays.h>
+
+namespace alluvium::coupling
+{
+  /** Over what disc a grain is spread, and how shape functions are integrated over its pieces. */
+  struct OverlapSettings
+  {
+    enum class Rule
+    {
+      centroid, // shape functions at the piece's centroid (the paper): exact for linear functions
+      moments   // with second moments: exact for Q1 on parallelograms
+    };
+    double filter_radius = 2.; // in contact diameters; 0: the grain's own fluid radius
+    Rule   rule          = Rule::moments;
+  };
+
+  /**
+   * The grains cut by the fluid's cells (paper (9)-(11), figure 1). Every piece knows its grain, its area (rescaled so that a grain's
+   * pieces add up to its volume V = pi r_fluid^2, also where the filter's disc leaves the domain) and the means of the shape
+   * functions over it. Pieces are sorted by cell, and by grain within a cell.
+   */
+  class OverlapMap
+  {
+  public:
+    static constexpr int dim = 2;
+
+    explicit OverlapMap(const fluid::FluidSpace<dim> &space);
+
+    /** Prepare the cells' polygons; call after every FluidSpace::reinit(). */
+    void reinit();
+
+    /** Cut @p grains. Throws UserError for a grain that touches no cell on any rank. Collective. */
+    void cut(const grains::GrainArrays &grains, const OverlapSettings &settings);
+
+    /** The pieces; their exchange terms are the time scheme's to fill. */
+    fluid::InterphaseTerms<dim>       &terms() { return pieces; }
+    const fluid::InterphaseTerms<dim> &terms() const { return pieces; }
+    /** Index into the grain arrays, per piece. */
+    const std::vector<unsigned int> &grain() const { return grain_of_piece; }
+
+    /**
+     * Row-sum lumped void fraction (9): 1 - sum over pieces of A phi_i / integral of phi_i. Where that falls below zero (never with the
+     * moments rule on parallelograms), it is set to zero and the solid in excess goes to the neighbouring nodes.
+     * Returns the volume moved so [m^2]. Collective.
+     */
+    double void_fraction(fluid::Vector &eps) const;
+
+    /** Sum a per-grain array over all ranks, with the same bits on all of them. */
+    void sum_over_ranks(std::vector<double> &per_grain) const;
+
+  private:
+    void add_piece(const unsigned int cell, const unsigned int grain, const geometry::Overlap &overlap, const bool moments);
+
+    const fluid::FluidSpace<dim>          *space;
+    std::vector<geometry::PreparedPolygon> polygons;
+    fluid::InterphaseTerms<dim>            pieces;
+    std::vector<unsigned int>              grain_of_piece;
+  };
+} // namespace alluvium::coupling

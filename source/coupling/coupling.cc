@@ -1,0 +1,208 @@
+#include <alluvium/coupling/coupling.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+namespace alluvium::coupling
+{
+  using namespace dealii;
+
+  Coupling::Coupling(const fluid::FluidSpace<dim> &space, fluid::VansSolver<dim> &solver)
+    : space(&space)
+    , solver(&solver)
+    , map(space)
+  {}
+
+
+
+  void Coupling::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Coupling");
+    prm.add_parameter("Filter radius",
+                      filter_text,
+                      "Radius of the disc over which a grain gives to and reads from the fluid: `grain` (its own fluid radius, as in "
+                      "the paper) or a multiple of its contact diameter, e.g. `2 d`. On cells finer than about two grain diameters only "
+                      "1.5 d to 2 d give the right flux through a bed.");
+    prm.add_parameter("Overlap rule",
+                      rule_text,
+                      "How shape functions are integrated over the pieces of a grain: `centroid` (the paper: at the piece's centroid, "
+                      "exact for linear functions) or `moments` (with second moments: exact for bilinear functions on parallelograms).",
+                      Patterns::Selection("centroid|moments"));
+    prm.add_parameter("Minimal void fraction in the drag",
+                      eps_floor,
+                      "Drag laws diverge as the void fraction goes to zero, which happens inside grains on fine meshes without a "
+                      "filter; below this value they see this value.",
+                      Patterns::Double(1e-6, 1.));
+    drag_choice.add_parameters(prm, "Drag law", "disc", "Closure for the drag f = gamma (u - v) per volume of grain.");
+    scheme_choice.add_parameters(prm,
+                                 "Time scheme",
+                                 "semi-implicit per grain",
+                                 "How grains and fluid see each other's velocity within a time step.");
+    prm.leave_subsection();
+  }
+
+
+
+  void Coupling::parse_parameters()
+  {
+    const std::string text = Utilities::trim(filter_text);
+    if (text == "grain")
+      settings.filter_radius = 0.;
+    else
+      {
+        std::size_t end = 0;
+        double      x   = 0.;
+        try
+          {
+            x = std::stod(text, &end);
+          }
+        catch (const std::exception &)
+          {}
+        check_user(end > 0 && Utilities::trim(text.substr(end)) == "d" && x >= 0.5 && x <= 20.,
+                   "Coupling/Filter radius: expected `grain` or a number of grain diameters between 0.5 and 20 followed by d, such as "
+                   "`2 d`; got '" +
+                     filter_text + "'.");
+        settings.filter_radius = x;
+      }
+    settings.rule = rule_text == "centroid" ? OverlapSettings::Rule::centroid : OverlapSettings::Rule::moments;
+  }
+
+
+
+  void Coupling::reinit()
+  {
+    map.reinit();
+    eps          = space->make_nodal_field();
+    latest_sweep = space->make_field();
+  }
+
+
+
+  void Coupling::update_void_fraction(const grains::GrainArrays &grains)
+  {
+    map.cut(grains, settings);
+    last                = {};
+    last.clipped_volume = map.void_fraction(eps);
+    double low = 1., high = 0.;
+    for (unsigned int i = 0; i < eps.locally_owned_size(); ++i)
+      {
+        low  = std::min(low, eps.local_element(i));
+        high = std::max(high, eps.local_element(i));
+      }
+    last.eps_min  = Utilities::MPI::min(low, space->communicator());
+    last.eps_max  = Utilities::MPI::max(high, space->communicator());
+    last.n_pieces = Utilities::MPI::sum(map.grain().size(), space->communicator());
+  }
+
+
+
+  void Coupling::step(const fluid::BoundaryConditions<dim> &boundary_conditions,
+                      const grains::GrainArrays            &grains,
+                      const std::vector<std::uint8_t>      &touched,
+                      const double                          dt,
+                      const bool                            fixed,
+                      grains::GrainLoads                   &loads)
+  {
+    update_void_fraction(grains);
+    CouplingState state{
+      grains, touched, map, dt, {{solver->gravity[0], solver->gravity[1]}}, solver->properties.density, {}, {}, {}};
+    state.old    = evaluate(map, *space, solver->old());
+    state.latest = state.old;
+    find_drag(state);
+
+    // grains that cannot move need no prediction
+    const auto        frozen = Registry<TimeScheme>::entries().at("implicit drag").create();
+    const TimeScheme &scheme = fixed ? *frozen : scheme_choice.get();
+
+    auto &exchange = map.terms().exchange;
+    scheme.exchange_terms(state, 0, exchange);
+    fluid::VansProblem<dim> problem{};
+    problem.dt            = dt;
+    problem.void_fraction = &eps;
+    problem.solid         = &map.terms();
+    problem.reference     = {{nullptr, &solver->old().block(0), &latest_sweep.block(0)}};
+    solver->begin_step(boundary_conditions, problem);
+    solver->solve();
+    last.n_iterations = solver->last_report().n_iterations;
+    for (unsigned int sweep = 1; sweep < scheme.n_sweeps(); ++sweep)
+      {
+        state.latest = evaluate(map, *space, solver->solution());
+        solver->solve_again([&](auto &) {
+          latest_sweep = solver->solution();
+          latest_sweep.update_ghost_values();
+          scheme.exchange_terms(state, sweep, exchange);
+        });
+        last.n_iterations += solver->last_report().n_iterations;
+      }
+    state.latest = evaluate(map, *space, solver->solution());
+    collect_forces(state);
+    loads.reset(grains.n());
+    scheme.loads(state, force, loads);
+  }
+
+
+
+  void Coupling::find_drag(CouplingState &state) const
+  {
+    const auto        &terms = map.terms();
+    const DragLaw     &law   = drag_choice.get();
+    DragState          s{0., 0., 0., solver->properties.density, solver->properties.viscosity};
+    const unsigned int n = space->n_nodes_per_cell();
+    state.gamma.resize(terms.n_pieces());
+    for (unsigned int c = 0; c < space->cells().size(); ++c)
+      for (unsigned int k = terms.begin[c]; k < terms.begin[c + 1]; ++k)
+        {
+          const unsigned int g = map.grain()[k];
+          s.eps                = 0.;
+          for (unsigned int v = 0; v < n; ++v)
+            s.eps += terms.shape[k].phi[v] * eps.local_element(space->cells()[c].node[v]);
+          s.eps          = std::max(s.eps, eps_floor);
+          s.slip         = std::hypot(state.old[k].u[0] - state.grains.vx[g], state.old[k].u[1] - state.grains.vy[g]);
+          s.diameter     = 2. * state.grains.fluid_radius[g];
+          state.gamma[k] = law.gamma(s);
+        }
+  }
+
+
+
+  void Coupling::collect_forces(const CouplingState &state)
+  {
+    const auto                   &terms = map.terms();
+    std::vector<double>           sums(5 * state.grains.n(), 0.);
+    const std::vector<PieceField> lag_of_sweep = evaluate(map, *space, latest_sweep);
+    const PieceField              none{};
+    for (std::size_t k = 0; k < terms.n_pieces(); ++k)
+      {
+        const auto        &x   = terms.exchange[k];
+        const auto        &f   = state.latest[k];
+        const PieceField  &lag = x.reference == 0 ? none : x.reference == 1 ? state.old[k] : lag_of_sweep[k];
+        const double       b   = x.gamma * x.compliance;
+        const unsigned int g   = map.grain()[k];
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const double v = x.a[d] + b * (f.u[d] - lag.u[d]) - x.compliance * f.grad_p[d];
+            sums[5 * g + d] += terms.shape[k].area * (x.gamma * (f.u[d] - v) + x.e[d] - f.grad_p[d]);
+            sums[5 * g + 2 + d] += terms.shape[k].area * v;
+          }
+        sums[5 * g + 4] += terms.shape[k].area;
+      }
+    map.sum_over_ranks(sums);
+    force.resize(state.grains.n());
+    predicted.resize(state.grains.n());
+    for (std::size_t g = 0; g < state.grains.n(); ++g)
+      {
+        force[g]     = {{sums[5 * g], sums[5 * g + 1]}};
+        predicted[g] = {{sums[5 * g + 2] / sums[5 * g + 4], sums[5 * g + 3] / sums[5 * g + 4]}};
+        for (unsigned int d = 0; d < dim; ++d)
+          last.force_on_grains[d] += force[g][d];
+        last.force_scale += std::hypot(force[g][0], force[g][1]);
+      }
+  }
+
+
+
+  void Coupling::audit()
+  {
+    last.force_on_fluid = solver->interphase_force();
+  }
+} // namespace alluvium::coupling

@@ -1,0 +1,305 @@
+#include <alluvium/coupling/overlap_map.h>
+#include <alluvium/utilities/user_error.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
+
+#include <algorithm>
+
+namespace alluvium::coupling
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Grains sorted into square bins, so that a cell finds the discs near it. */
+    class GrainBins
+    {
+    public:
+      GrainBins(const grains::GrainArrays &grains, const double width)
+        : width(width)
+      {
+        lower = {{*std::min_element(grains.x.begin(), grains.x.end()), *std::min_element(grains.y.begin(), grains.y.end())}};
+        const std::array<double, 2> upper = {
+          {*std::max_element(grains.x.begin(), grains.x.end()), *std::max_element(grains.y.begin(), grains.y.end())}};
+        for (unsigned int d = 0; d < 2; ++d)
+          n[d] = 1 + static_cast<int>((upper[d] - lower[d]) / width);
+        begin.assign(n[0] * n[1] + 1, 0);
+        std::vector<int> bin(grains.n());
+        for (std::size_t g = 0; g < grains.n(); ++g)
+          {
+            bin[g] = index(grains.y[g], 1) * n[0] + index(grains.x[g], 0);
+            ++begin[bin[g] + 1];
+          }
+        for (std::size_t b = 1; b < begin.size(); ++b)
+          begin[b] += begin[b - 1];
+        member.resize(grains.n());
+        std::vector<unsigned int> next(begin.begin(), begin.end() - 1);
+        for (std::size_t g = 0; g < grains.n(); ++g)
+          member[next[bin[g]]++] = g;
+      }
+
+      /** All grains whose centres may lie in the box, in rising order. */
+      void find(const std::array<double, 2> &low, const std::array<double, 2> &high, std::vector<unsigned int> &found) const
+      {
+        found.clear();
+        for (unsigned int d = 0; d < 2; ++d)
+          if (high[d] < lower[d] || low[d] > lower[d] + n[d] * width)
+            return;
+        const int i0 = index(low[0], 0), i1 = index(high[0], 0);
+        for (int j = index(low[1], 1); j <= index(high[1], 1); ++j)
+          found.insert(found.end(), member.begin() + begin[j * n[0] + i0], member.begin() + begin[j * n[0] + i1 + 1]);
+        std::sort(found.begin(), found.end());
+      }
+
+    private:
+      int index(const double x, const unsigned int d) const
+      {
+        return std::clamp(static_cast<int>((x - lower[d]) / width), 0, n[d] - 1);
+      }
+
+      double                    width;
+      std::array<double, 2>     lower;
+      std::array<int, 2>        n;
+      std::vector<unsigned int> begin, member;
+    };
+  } // namespace
+
+
+
+  OverlapMap::OverlapMap(const fluid::FluidSpace<dim> &space)
+    : space(&space)
+  {}
+
+
+
+  void OverlapMap::reinit()
+  {
+    polygons.clear();
+    const unsigned int n = space->n_nodes_per_cell();
+    for (const auto &cell : space->cells())
+      {
+        geometry::ConvexPolygon polygon;
+        polygon.n = n;
+        for (unsigned int v = 0; v < n; ++v)
+          // deal.II's lexicographic quadrilateral, counter-clockwise
+          polygon.vertex[n == 4 && v >= 2 ? 5 - v : v] = {{cell.vertex[v][0], cell.vertex[v][1]}};
+        polygons.emplace_back(polygon);
+      }
+  }
+
+
+
+  void OverlapMap::cut(const grains::GrainArrays &grains, const OverlapSettings &settings)
+  {
+    pieces.begin.assign(1, 0);
+    pieces.shape.clear();
+    grain_of_piece.clear();
+    std::vector<double> radius(grains.n());
+    for (std::size_t g = 0; g < grains.n(); ++g)
+      radius[g] = settings.filter_radius > 0. ? 2. * settings.filter_radius * grains.radius[g] : grains.fluid_radius[g];
+    const double max_radius = *std::max_element(radius.begin(), radius.end());
+
+    const GrainBins           bins(grains, max_radius);
+    std::vector<unsigned int> candidates;
+    std::vector<double>       area(grains.n(), 0.);
+    for (unsigned int c = 0; c < polygons.size(); ++c)
+      {
+        const auto &polygon = polygons[c];
+        bins.find({{polygon.lower[0] - max_radius, polygon.lower[1] - max_radius}},
+                  {{polygon.upper[0] + max_radius, polygon.upper[1] + max_radius}},
+                  candidates);
+        for (const unsigned int g : candidates)
+          {
+            const geometry::Overlap o = geometry::overlap({{{grains.x[g], grains.y[g]}}, radius[g]}, polygon);
+            if (o.area > 0.)
+              {
+                area[g] += o.area;
+                add_piece(c, g, o, settings.rule == OverlapSettings::Rule::moments);
+              }
+          }
+        pieces.begin.push_back(pieces.shape.size());
+      }
+    pieces.exchange.resize(pieces.shape.size());
+
+    sum_over_ranks(area);
+    for (std::size_t g = 0; g < grains.n(); ++g)
+      {
+        check_user(area[g] > 0.,
+                   "Grain " + std::to_string(grains.id[g]) + " at (" + std::to_string(grains.x[g]) + ", " +
+                     std::to_string(grains.y[g]) + ") m has left the fluid's domain.");
+        area[g] = numbers::PI * grains.fluid_radius[g] * grains.fluid_radius[g] / area[g];
+      }
+    for (std::size_t k = 0; k < pieces.shape.size(); ++k)
+      pieces.shape[k].area *= area[grain_of_piece[k]];
+  }
+
+
+
+  void OverlapMap::add_piece(const unsigned int       cell,
+                             const unsigned int       grain,
+                             const geometry::Overlap &o,
+                             const bool               moments)
+  {
+    const fluid::CellData<dim> &data = space->cells()[cell];
+    fluid::PieceShape<dim>      s{};
+    s.area           = o.area;
+    const auto &v    = data.vertex;
+    const auto  edge = [&](const unsigned int a, const unsigned int b) {
+      return std::array<double, 2>{{v[b][0] - v[a][0], v[b][1] - v[a][1]}};
+    };
+    const std::array<double, 2> x = {{o.centroid[0] - v[0][0], o.centroid[1] - v[0][1]}};
+    if (space->n_nodes_per_cell() == 3)
+      {
+        const auto   e = edge(0, 1), f = edge(0, 2);
+        const double det = e[0] * f[1] - e[1] * f[0];
+        s.phi[1]         = (x[0] * f[1] - x[1] * f[0]) / det;
+        s.phi[2]         = (e[0] * x[1] - e[1] * x[0]) / det;
+        s.phi[0]         = 1. - s.phi[1] - s.phi[2];
+        s.grad[1]        = {{f[1] / det, -f[0] / det}};
+        s.grad[2]        = {{-e[1] / det, e[0] / det}};
+        for (unsigned int d = 0; d < 2; ++d)
+          s.grad[0][d] = -s.grad[1][d] - s.grad[2][d];
+      }
+    else
+      {
+        // invert x = e xi + f eta + g xi eta; affine cells need one step
+        const auto                  e = edge(0, 1), f = edge(0, 2);
+        const std::array<double, 2> g = {{v[3][0] - v[1][0] - f[0], v[3][1] - v[1][1] - f[1]}};
+        double                      xi = 0.5, eta = 0.5, det = 0.;
+        std::array<double, 2>       a, b; // columns of the Jacobian at (xi, eta)
+        for (unsigned int step = 0; step < (data.parallelogram ? 1 : 20); ++step)
+          {
+            std::array<double, 2> r;
+            for (unsigned int d = 0; d < 2; ++d)
+              {
+                const double bend = data.parallelogram ? 0. : g[d];
+                a[d]              = e[d] + bend * eta;
+                b[d]              = f[d] + bend * xi;
+                r[d]              = x[d] - e[d] * xi - f[d] * eta - bend * xi * eta;
+              }
+            det               = a[0] * b[1] - a[1] * b[0];
+            const double dxi  = (r[0] * b[1] - r[1] * b[0]) / det;
+            const double deta = (a[0] * r[1] - a[1] * r[0]) / det;
+            xi += dxi;
+            eta += deta;
+            if (std::abs(dxi) + std::abs(deta) < 1e-14)
+              break;
+          }
+        const double second = moments ? ((b[1] * o.second_moments[0] - b[0] * o.second_moments[1]) * -a[1] +
+                                         (b[1] * o.second_moments[1] - b[0] * o.second_moments[2]) * a[0]) /
+                                          (det * det * o.area) :
+                                        0.; // mean of (xi - xi_c)(eta - eta_c)
+        const double product = xi * eta + second;
+        s.phi                = {{1. - xi - eta + product, xi - product, eta - product, product}};
+        const std::array<std::array<double, 2>, 4> reference = {
+          {{{eta - 1., xi - 1.}}, {{1. - eta, -xi}}, {{-eta, 1. - xi}}, {{eta, xi}}}};
+        for (unsigned int i = 0; i < 4; ++i)
+          s.grad[i] = {{(reference[i][0] * b[1] - reference[i][1] * a[1]) / det,
+                        (-reference[i][0] * b[0] + reference[i][1] * a[0]) / det}};
+      }
+    pieces.shape.push_back(s);
+    grain_of_piece.push_back(grain);
+  }
+
+
+
+  double OverlapMap::void_fraction(fluid::Vector &eps) const
+  {
+    const unsigned int n       = space->n_nodes_per_cell();
+    const auto        &volumes = space->node_volumes();
+    fluid::Vector      solid   = space->make_nodal_field();
+
+    // with ghosts: row indices of the constraints are global, those of the cells local
+    std::vector<types::global_dof_index> nodes(n);
+    dealii::Vector<double>               local(n);
+    const auto                          &partitioner = *solid.get_partitioner();
+    for (unsigned int c = 0; c < space->cells().size(); ++c)
+      {
+        if (pieces.begin[c] == pieces.begin[c + 1])
+          continue;
+        local = 0.;
+        for (unsigned int k = pieces.begin[c]; k < pieces.begin[c + 1]; ++k)
+          for (unsigned int v = 0; v < n; ++v)
+            local(v) += pieces.shape[k].area * pieces.shape[k].phi[v];
+        for (unsigned int v = 0; v < n; ++v)
+          nodes[v] = partitioner.local_to_global(space->cells()[c].node[v]);
+        space->nodal_constraints().distribute_local_to_global(local, nodes, solid);
+      }
+    solid.compress(VectorOperation::add);
+
+    // overfull nodes hand their excess to the nodes of their cells, in proportion to the room there
+    double moved = 0.;
+    for (unsigned int pass = 0; pass < 20; ++pass)
+      {
+        fluid::Vector excess = space->make_nodal_field(), room = space->make_nodal_field(), share = space->make_nodal_field();
+        double        total = 0.;
+        for (unsigned int i = 0; i < solid.locally_owned_size(); ++i)
+          {
+            const double over       = solid.local_element(i) - volumes.local_element(i);
+            const bool   hanging    = volumes.local_element(i) == 0.;
+            excess.local_element(i) = hanging ? 0. : std::max(0., over);
+            room.local_element(i)   = hanging ? 0. : std::max(0., -over);
+            if (over > 1e-13 * volumes.local_element(i))
+              total += excess.local_element(i);
+          }
+        total = Utilities::MPI::sum(total, space->communicator());
+        if (total == 0.)
+          break;
+        if (pass == 0)
+          moved = total;
+        excess.update_ghost_values();
+        room.update_ghost_values();
+        // room around each node, then its excess in shares of that
+        fluid::Vector around = space->make_nodal_field();
+        for (int stage = 0; stage < 2; ++stage)
+          {
+            fluid::Vector &target = stage == 0 ? around : share;
+            for (const auto &cell : space->cells())
+              {
+                double in_cell = 0.;
+                for (unsigned int v = 0; v < n; ++v)
+                  in_cell += room.local_element(cell.node[v]);
+                for (unsigned int v = 0; v < n; ++v)
+                  if (excess.local_element(cell.node[v]) > 0.)
+                    {
+                      if (stage == 0)
+                        target.local_element(cell.node[v]) += in_cell;
+                      else if (around.local_element(cell.node[v]) > 0.)
+                        for (unsigned int w = 0; w < n; ++w)
+                          target.local_element(cell.node[w]) += excess.local_element(cell.node[v]) *
+                                                                room.local_element(cell.node[w]) /
+                                                                around.local_element(cell.node[v]);
+                    }
+              }
+            target.compress(VectorOperation::add);
+            target.update_ghost_values();
+          }
+        for (unsigned int i = 0; i < solid.locally_owned_size(); ++i)
+          if (around.local_element(i) > 0. || excess.local_element(i) == 0.)
+            solid.local_element(i) += share.local_element(i) - excess.local_element(i);
+      }
+
+    eps.zero_out_ghost_values();
+    for (unsigned int i = 0; i < eps.locally_owned_size(); ++i)
+      eps.local_element(i) = volumes.local_element(i) > 0. ?
+                               std::max(0., 1. - solid.local_element(i) / volumes.local_element(i)) :
+                               1.;
+    space->interpolate_hanging_nodes(eps);
+    return moved;
+  }
+
+
+
+  void OverlapMap::sum_over_ranks(std::vector<double> &per_grain) const
+  {
+    const MPI_Comm comm = space->communicator();
+    if (Utilities::MPI::n_mpi_processes(comm) == 1)
+      return;
+    // reduced on one rank and sent to all: replicated contact solves must start from the same bits
+    std::vector<double> sum(per_grain.size());
+    MPI_Reduce(per_grain.data(), sum.data(), per_grain.size(), MPI_DOUBLE, MPI_SUM, 0, comm);
+    MPI_Bcast(sum.data(), sum.size(), MPI_DOUBLE, 0, comm);
+    per_grain.swap(sum);
+  }
+} // namespace alluvium::coupling
