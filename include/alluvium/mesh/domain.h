@@ -1,0 +1,90 @@
+#pragma once
+
+#include <alluvium/grains/wall.h>
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/types.h>
+
+#include <mpi.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dealii
+{
+  class ParameterHandler;
+  template <int, int>
+  class Triangulation;
+} // namespace dealii
+
+namespace alluvium::mesh
+{
+  /**
+   * Where the fluid and the grains are: a rectangle with boundaries left, right, bottom and top, or a mesh file of gmsh
+   * (.msh, ASCII, format 2.2 or 4.1; triangles or quadrilaterals) whose boundaries are its physical groups of
+   * dimension 1.
+   */
+  template <int dim>
+  class Domain
+  {
+  public:
+    Domain();
+    ~Domain();
+
+    /** Declare section `Domain` in @p prm. */
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /**
+     * Read the mesh file, if there is one, and find out what is asked below. Collective. Relative paths start at @p
+     * directory. Throws UserError for an empty rectangle and for a file that is missing, unreadable, binary, of another
+     * version, without cells, in 3-D, of higher order, of mixed cell types, or with a side of its boundary outside all
+     * named physical groups.
+     */
+    void initialize(MPI_Comm communicator, const std::string &directory);
+
+    const std::map<std::string, dealii::types::boundary_id> &boundary_ids() const { return ids; }
+
+    /** Corners of the bounding box [m]. */
+    const dealii::Point<dim> &lower() const { return lower_corner; }
+    const dealii::Point<dim> &upper() const { return upper_corner; }
+
+    /** Is the fluid's mesh made of triangles, which are never refined? */
+    bool has_triangles() const { return triangles; }
+    bool is_rectangle() const { return mesh_file.empty(); }
+
+    /** The parameter `Coarse cell size` [m], 0 if the grains decide. */
+    double coarse_cell_size() const { return coarse_size; }
+
+    /**
+     * The unrefined mesh, distributed over all ranks. A rectangle has cells as square as possible with sides of at most
+     * @p cell_size [m] (a hair more where rounding makes them square). Cells of a file are as they are. Rectangles and
+     * quadrilaterals are a parallel::distributed::Triangulation; triangles are a parallel::shared::Triangulation with
+     * artificial cells, cut into as many compact parts as there are ranks by recursive bisection of the cells' centres.
+     */
+    std::unique_ptr<dealii::Triangulation<dim, dim>> make_triangulation(double cell_size) const;
+
+    /**
+     * The boundary as walls for the grains: one segment per straight side, named like the boundary, without the
+     * boundaries that the parameters open to grains.
+     */
+    const std::vector<grains::WallSegment> &walls() const { return wall_segments; }
+
+    /** Throws UserError if @p triangulation has fewer cells than ranks. Collective. */
+    static void check_partition(const dealii::Triangulation<dim, dim> &triangulation);
+
+  private:
+    void read_mesh_file(const std::string &directory);
+
+    dealii::Point<dim> lower_corner, upper_corner;
+    std::string        mesh_file, open_to_grains;
+    double             coarse_size = 0.;
+
+    MPI_Comm                                          communicator;
+    std::string                                       mesh_text, mesh_path;
+    bool                                              triangles = false;
+    std::map<std::string, dealii::types::boundary_id> ids;
+    std::vector<grains::WallSegment>                  wall_segments;
+  };
+} // namespace alluvium::mesh

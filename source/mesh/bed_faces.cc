@@ -1,0 +1,112 @@
+#include <alluvium/mesh/bed_faces.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace alluvium::mesh
+{
+  namespace
+  {
+    constexpr double pi = 3.14159265358979323846;
+
+    /** Distance between the intervals [a, b] and [c, d]. */
+    double gap(const double a, const double b, const double c, const double d)
+    {
+      return std::max({0., c - b, a - d});
+    }
+
+    /** The level beyond which @p area is exceeded, going through (level, area) pairs in order; false if there is not as
+     * much. */
+    bool level_with(const std::vector<std::pair<double, double>> &levels, const double area, double &level)
+    {
+      double sum = 0.;
+      for (const auto &[y, a] : levels)
+        if ((sum += a) >= area)
+          {
+            level = y;
+            return true;
+          }
+      return false;
+    }
+  } // namespace
+
+
+  double BedFaces::bottom() const
+  {
+    double result = std::numeric_limits<double>::max();
+    for (const Column &column : columns)
+      result = std::min(result, column.bottom);
+    return result;
+  }
+
+
+  double BedFaces::top() const
+  {
+    double result = std::numeric_limits<double>::lowest();
+    for (const Column &column : columns)
+      result = std::max(result, column.top);
+    return result;
+  }
+
+
+  double BedFaces::distance_to_top(const std::array<double, 2> &lower, const std::array<double, 2> &upper) const
+  {
+    double result = std::numeric_limits<double>::infinity();
+    for (const Column &c : columns)
+      result =
+        std::min(result, std::hypot(gap(lower[0], upper[0], c.left, c.right), gap(lower[1], upper[1], c.top, c.top)));
+    return result;
+  }
+
+
+  double BedFaces::distance_to_bottom(const std::array<double, 2> &lower, const std::array<double, 2> &upper) const
+  {
+    double result = std::numeric_limits<double>::infinity();
+    for (const Column &c : columns)
+      result = std::min(
+        result, std::hypot(gap(lower[0], upper[0], c.left, c.right), gap(lower[1], upper[1], c.bottom, c.bottom)));
+    return result;
+  }
+
+
+  double mean_diameter(const grains::GrainArrays &grains)
+  {
+    double sum = 0.;
+    for (const double r : grains.radius)
+      sum += 2. * r;
+    return grains.n() == 0 ? 0. : sum / grains.n();
+  }
+
+
+  BedFaces find_bed_faces(const grains::GrainArrays &grains, const double left, const double right)
+  {
+    BedFaces     result;
+    const double d = mean_diameter(grains);
+    if (grains.n() == 0 || right <= left)
+      return result;
+
+    const auto   n_columns = static_cast<std::size_t>(std::max(1., std::round((right - left) / (8. * d))));
+    const double width     = (right - left) / n_columns;
+    std::vector<std::vector<std::pair<double, double>>> bottoms(n_columns), tops(n_columns);
+    for (std::size_t i = 0; i < grains.n(); ++i)
+      {
+        const double position = (grains.x[i] - left) / width;
+        const auto   column   = static_cast<std::size_t>(std::clamp(position, 0., n_columns - 1.));
+        const double r = grains.radius[i], area = pi * r * r;
+        bottoms[column].emplace_back(grains.y[i] - r, area);
+        tops[column].emplace_back(-grains.y[i] - r, area); // negative: from the top down
+      }
+    const double quarter_layer = 0.25 * d * width;
+    for (std::size_t c = 0; c < n_columns; ++c)
+      {
+        std::sort(bottoms[c].begin(), bottoms[c].end());
+        std::sort(tops[c].begin(), tops[c].end());
+        double bottom, top;
+        if (level_with(bottoms[c], quarter_layer, bottom) && level_with(tops[c], quarter_layer, top))
+          result.columns.push_back({left + c * width, left + (c + 1) * width, bottom, std::max(bottom, -top)});
+      }
+    return result;
+  }
+} // namespace alluvium::mesh

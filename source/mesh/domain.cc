@@ -1,0 +1,378 @@
+#include <alluvium/mesh/domain.h>
+#include <alluvium/mesh/gmsh_file.h>
+#include <alluvium/utilities/user_error.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/distributed/shared_tria.h>
+#include <deal.II/distributed/tria.h>
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_in.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+namespace alluvium::mesh
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** What deal.II has to say about an exception of its own, without the stack trace. */
+    std::string message_of(const std::exception &error)
+    {
+      std::ostringstream text;
+      if (const auto *e = dynamic_cast<const ExceptionBase *>(&error))
+        e->print_info(text);
+      else
+        text << error.what();
+      return Utilities::trim(text.str());
+    }
+
+    template <int dim>
+    void read_into(Triangulation<dim> &triangulation, const std::string &text, const std::string &path)
+    {
+      std::istringstream in(text);
+      GridIn<dim>        grid_in;
+      grid_in.attach_triangulation(triangulation);
+      try
+        {
+          grid_in.read_msh(in);
+        }
+      catch (const std::exception &error)
+        {
+          throw UserError("Mesh file '" + path + "' cannot be used: " + message_of(error));
+        }
+    }
+
+    /** Cut cells [begin, end) into parts first_part ... first_part + n_parts - 1 by their centres, halving the longer
+     * side. */
+    template <int dim>
+    void bisect(const std::vector<Point<dim>>        &centers,
+                const std::vector<unsigned>::iterator begin,
+                const std::vector<unsigned>::iterator end,
+                const unsigned int                    first_part,
+                const unsigned int                    n_parts,
+                std::vector<types::subdomain_id>     &part)
+    {
+      if (n_parts == 1)
+        {
+          std::for_each(begin, end, [&](const unsigned int i) { part[i] = first_part; });
+          return;
+        }
+      unsigned int axis    = 0;
+      double       longest = -1.;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const auto [a, b] = std::minmax_element(
+            begin, end, [&](const unsigned int i, const unsigned int j) { return centers[i][d] < centers[j][d]; });
+          if (begin != end && centers[*b][d] - centers[*a][d] > longest)
+            {
+              longest = centers[*b][d] - centers[*a][d];
+              axis    = d;
+            }
+        }
+      const unsigned int low    = n_parts / 2;
+      const auto         middle = begin + (end - begin) * std::size_t(low) / n_parts;
+      std::nth_element(begin, middle, end, [&](const unsigned int i, const unsigned int j) {
+        return centers[i][axis] != centers[j][axis] ? centers[i][axis] < centers[j][axis] : i < j;
+      });
+      bisect(centers, begin, middle, first_part, low, part);
+      bisect(centers, middle, end, first_part + low, n_parts - low, part);
+    }
+
+    template <int dim>
+    void partition_by_bisection(parallel::shared::Triangulation<dim> &triangulation)
+    {
+      std::vector<Point<dim>>   centers;
+      std::vector<unsigned int> order;
+      for (const auto &cell : triangulation.active_cell_iterators())
+        {
+          order.push_back(centers.size());
+          centers.push_back(cell->center());
+        }
+      std::vector<types::subdomain_id> part(centers.size(), 0);
+      bisect(centers,
+             order.begin(),
+             order.end(),
+             0,
+             Utilities::MPI::n_mpi_processes(triangulation.get_communicator()),
+             part);
+      std::size_t i = 0;
+      for (const auto &cell : triangulation.active_cell_iterators())
+        cell->set_subdomain_id(part[i++]);
+    }
+
+    /** A side of a cell on the boundary. */
+    struct Side
+    {
+      unsigned int       a, b; // vertices
+      types::boundary_id id;
+    };
+
+    /** The boundary of @p triangulation with the sides that continue each other straight on joined. */
+    template <int dim>
+    std::vector<std::array<Point<dim>, 2>> straight_sides(const Triangulation<dim>        &triangulation,
+                                                          const std::vector<Side>         &sides,
+                                                          std::vector<types::boundary_id> &side_ids)
+    {
+      const auto                                      &vertex = triangulation.get_vertices();
+      std::map<unsigned int, std::vector<std::size_t>> at_vertex;
+      for (std::size_t s = 0; s < sides.size(); ++s)
+        {
+          at_vertex[sides[s].a].push_back(s);
+          at_vertex[sides[s].b].push_back(s);
+        }
+
+      std::vector<std::array<Point<dim>, 2>> result;
+      std::vector<bool>                      used(sides.size(), false);
+      for (std::size_t s = 0; s < sides.size(); ++s)
+        if (!used[s])
+          {
+            used[s] = true;
+            std::array<unsigned int, 2> ends{{sides[s].a, sides[s].b}};
+            const Tensor<1, dim>        direction = vertex[ends[1]] - vertex[ends[0]];
+            for (unsigned int &end : ends)
+              for (bool go_on = true; go_on;)
+                {
+                  go_on             = false;
+                  const auto &meets = at_vertex.at(end);
+                  if (meets.size() != 2)
+                    break;
+                  const std::size_t next = used[meets[0]] ? meets[1] : meets[0];
+                  if (used[next] || sides[next].id != sides[s].id)
+                    break;
+                  const unsigned int   far  = sides[next].a == end ? sides[next].b : sides[next].a;
+                  const Tensor<1, dim> step = vertex[far] - vertex[end];
+                  // a polygonal arc has corners of far more than 1e-9
+                  const Tensor<1, dim> across = step - (step * direction) / direction.norm_square() * direction;
+                  if (across.norm() > 1e-9 * step.norm())
+                    break;
+                  used[next] = true;
+                  end        = far;
+                  go_on      = true;
+                }
+            result.push_back({{vertex[ends[0]], vertex[ends[1]]}});
+            side_ids.push_back(sides[s].id);
+          }
+      return result;
+    }
+  } // namespace
+
+
+  template <int dim>
+  Domain<dim>::Domain()
+    : communicator(MPI_COMM_SELF)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      upper_corner[d] = 1.;
+  }
+
+
+  template <int dim>
+  Domain<dim>::~Domain() = default;
+
+
+  template <int dim>
+  void Domain<dim>::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Domain");
+    prm.add_parameter(
+      "Lower left corner",
+      lower_corner,
+      "The rectangle's lower left corner [m]: x, y. Its boundaries are named left, right, bottom and top.");
+    prm.add_parameter("Upper right corner", upper_corner, "The rectangle's upper right corner [m]: x, y.");
+    prm.add_parameter("Mesh file",
+                      mesh_file,
+                      "A mesh by gmsh (.msh, ASCII, format 4.1 or 2.2) instead of the rectangle, of triangles or of "
+                      "quadrilaterals; lengths in m, path relative to the parameter file. Its physical curves name the "
+                      "boundaries, and every side must be in one. Triangles are used as they are; quadrilaterals are "
+                      "the coarsest cells of the adaptive mesh.");
+    prm.add_parameter(
+      "Coarse cell size",
+      coarse_size,
+      "Largest cell of the rectangle's mesh [m]. 0: from the refinement criteria, which measure in grain "
+      "diameters. Needed without grains.",
+      Patterns::Double(0.));
+    prm.add_parameter(
+      "Open to grains",
+      open_to_grains,
+      "Names of the boundaries that are no walls for the grains, separated by commas. A grain that leaves "
+      "the domain stops the run, so this is for boundaries with other walls before them.");
+    prm.leave_subsection();
+  }
+
+
+  template <int dim>
+  void Domain<dim>::initialize(const MPI_Comm mpi_communicator, const std::string &directory)
+  {
+    communicator = mpi_communicator;
+    ids.clear();
+    wall_segments.clear();
+    triangles = false;
+    if (is_rectangle())
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          check_user(std::isfinite(lower_corner[d]) && std::isfinite(upper_corner[d]) &&
+                       lower_corner[d] < upper_corner[d],
+                     "Domain: the upper right corner must be above and to the right of the lower left one; in " +
+                       std::string(d == 0 ? "x" : "y") + " they are at " + std::to_string(lower_corner[d]) + " and " +
+                       std::to_string(upper_corner[d]) + " m.");
+        ids             = {{"left", 0}, {"right", 1}, {"bottom", 2}, {"top", 3}}; // deal.II's colours of a rectangle
+        const double x0 = lower_corner[0], y0 = lower_corner[1], x1 = upper_corner[0], y1 = upper_corner[1];
+        wall_segments = {{{{x0, y1}}, {{x0, y0}}, {{0., 0.}}, "left"},
+                         {{{x1, y0}}, {{x1, y1}}, {{0., 0.}}, "right"},
+                         {{{x0, y0}}, {{x1, y0}}, {{0., 0.}}, "bottom"},
+                         {{{x1, y1}}, {{x0, y1}}, {{0., 0.}}, "top"}};
+      }
+    else
+      read_mesh_file(directory);
+
+    for (const auto &name : Utilities::split_string_list(open_to_grains))
+      {
+        std::string known;
+        for (const auto &[other, id] : ids)
+          known += (known.empty() ? "" : ", ") + other;
+        check_user(ids.count(name) == 1,
+                   "Domain/Open to grains: there is no boundary named '" + name +
+                     "'. The domain's boundaries are: " + known + ".");
+        wall_segments.erase(std::remove_if(wall_segments.begin(),
+                                           wall_segments.end(),
+                                           [&](const auto &wall) { return wall.name == name; }),
+                            wall_segments.end());
+      }
+  }
+
+
+  template <int dim>
+  void Domain<dim>::read_mesh_file(const std::string &directory)
+  {
+    const std::filesystem::path path(mesh_file);
+    mesh_path =
+      path.is_absolute() || directory.empty() ? path.string() : (std::filesystem::path(directory) / path).string();
+
+    // one rank reads, all know whether it could
+    std::vector<std::string> content(2);
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+      {
+        std::error_code    ignored;
+        std::ifstream      file(mesh_path, std::ios::binary);
+        std::ostringstream buffer;
+        if (!std::filesystem::exists(mesh_path, ignored))
+          content[1] = "does not exist.";
+        else if (std::filesystem::is_directory(mesh_path, ignored) || !(buffer << file.rdbuf()))
+          content[1] = "cannot be read.";
+        content[0] = buffer.str();
+      }
+    content = Utilities::MPI::broadcast(communicator, content);
+    check_user(content[1].empty(), "Domain/Mesh file: '" + mesh_path + "' " + content[1]);
+    mesh_text = content[0];
+
+    const GmshFile file = read_gmsh_file(mesh_text, mesh_path);
+    triangles           = file.n_triangles > 0;
+    std::map<types::boundary_id, std::string> names;
+    for (const auto &[name, id] : file.boundary_names)
+      {
+        ids[name] = id;
+        names[id] = name;
+      }
+
+    Triangulation<dim> serial;
+    read_into(serial, mesh_text, mesh_path);
+    std::vector<Side> sides;
+    for (const auto &cell : serial.active_cell_iterators())
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary())
+          {
+            const auto face = cell->face(f);
+            if (names.count(face->boundary_id()) == 0)
+              {
+                std::ostringstream where;
+                where << "(" << face->center() << ")";
+                throw UserError("Mesh file '" + mesh_path + "': the side of the boundary at " + where.str() +
+                                " is in no named physical curve.");
+              }
+            sides.push_back({face->vertex_index(0), face->vertex_index(1), face->boundary_id()});
+          }
+    for (const auto &[id, name] : names)
+      check_user(std::any_of(sides.begin(), sides.end(), [id = id](const Side &side) { return side.id == id; }),
+                 "Mesh file '" + mesh_path + "': the physical curve '" + name +
+                   "' is not on the boundary of the mesh.");
+
+    lower_corner = upper_corner = serial.begin_active()->vertex(0);
+    for (const Side &side : sides)
+      for (const unsigned int v : {side.a, side.b})
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            lower_corner[d] = std::min(lower_corner[d], serial.get_vertices()[v][d]);
+            upper_corner[d] = std::max(upper_corner[d], serial.get_vertices()[v][d]);
+          }
+
+    std::vector<types::boundary_id> side_ids;
+    const auto                      straight = straight_sides(serial, sides, side_ids);
+    for (std::size_t s = 0; s < straight.size(); ++s)
+      wall_segments.push_back({{{straight[s][0][0], straight[s][0][1]}},
+                               {{straight[s][1][0], straight[s][1][1]}},
+                               {{0., 0.}},
+                               names.at(side_ids[s])});
+  }
+
+
+  template <int dim>
+  std::unique_ptr<Triangulation<dim>> Domain<dim>::make_triangulation(const double cell_size) const
+  {
+    if (triangles)
+      {
+        auto result = std::make_unique<parallel::shared::Triangulation<dim>>(
+          communicator, Triangulation<dim>::none, true, parallel::shared::Triangulation<dim>::partition_custom_signal);
+        auto *raw = result.get();
+        result->signals.create.connect([raw] { partition_by_bisection(*raw); });
+        read_into(*result, mesh_text, mesh_path);
+        check_partition(*result);
+        return result;
+      }
+
+    auto result = std::make_unique<parallel::distributed::Triangulation<dim>>(communicator);
+    if (!is_rectangle())
+      {
+        read_into(*result, mesh_text, mesh_path);
+        return result;
+      }
+
+    check_user(cell_size > 0.,
+               "Domain: without grains, 'Coarse cell size' must say how large the cells of the mesh are.");
+    double                    side = std::numeric_limits<double>::max();
+    std::vector<unsigned int> n(dim);
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double length = upper_corner[d] - lower_corner[d];
+        const double cells  = std::max(1., std::ceil(length / cell_size * (1. - 1e-10)));
+        check_user(cells < 1e5,
+                   "Domain: cells of " + std::to_string(cell_size) + " m are too small for a domain of " +
+                     std::to_string(length) + " m.");
+        side = std::min(side, length / cells);
+      }
+    for (unsigned int d = 0; d < dim; ++d)
+      n[d] = std::max(1., std::round((upper_corner[d] - lower_corner[d]) / side));
+    GridGenerator::subdivided_hyper_rectangle(*result, n, lower_corner, upper_corner, true);
+    return result;
+  }
+
+
+  template <int dim>
+  void Domain<dim>::check_partition(const Triangulation<dim> &triangulation)
+  {
+    const auto n_ranks = Utilities::MPI::n_mpi_processes(triangulation.get_communicator());
+    const auto n_cells = triangulation.n_global_active_cells();
+    check_user(n_cells >= n_ranks,
+               "The fluid's mesh has " + std::to_string(n_cells) + " cells, too few for " + std::to_string(n_ranks) +
+                 " MPI ranks: start fewer.");
+  }
+
+
+  template class Domain<2>;
+} // namespace alluvium::mesh
