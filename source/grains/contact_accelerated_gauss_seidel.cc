@@ -35,7 +35,6 @@ namespace alluvium::grains
     {
       ContactSolution   solution;
       const std::size_t n_discs = problem.mass.size();
-      const double      n = std::max<double>(1., problem.contacts.size()), target = tolerance.residual * problem.impulse_scale;
       apply_impulses(problem);
       last.assign(problem.velocity.begin(), problem.velocity.begin() + n_discs);
       for (Contact &c : problem.contacts)
@@ -59,8 +58,8 @@ namespace alluvium::grains
               ++solution.sweeps;
             }
 
-          const double change = std::sqrt(sums.change / n);
-          if (change <= target)
+          const double change = relative_change(sums, problem);
+          if (change <= tolerance.residual)
             {
               measure_residual(problem, solution);
               if (solution.residual <= tolerance.residual && solution.violation <= tolerance.violation)
@@ -73,7 +72,7 @@ namespace alluvium::grains
           if (solution.sweeps >= stall_start + stall_sweeps)
             {
               if (change > 0.7 * stall_change)
-                cap *= 0.9;
+                cap = std::max(0.95, cap - 0.01);
               stall_change = change;
               stall_start  = solution.sweeps;
             }
@@ -93,8 +92,8 @@ namespace alluvium::grains
     }
 
   private:
-    unsigned int forward_sweeps = 400;
-    unsigned int stall_sweeps   = 40;
+    unsigned int forward_sweeps = 1000;
+    unsigned int stall_sweeps   = 100;
 
     mutable std::vector<DiscVelocity> last; // velocities of the iteration before; kept to save the allocation
 

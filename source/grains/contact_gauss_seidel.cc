@@ -2,8 +2,6 @@
 #include <alluvium/grains/contact_sweep.h>
 #include <alluvium/utilities/plugin.h>
 
-#include <cmath>
-
 namespace alluvium::grains
 {
   /**
@@ -16,14 +14,13 @@ namespace alluvium::grains
     ContactSolution solve(ContactProblem &problem, const ContactTolerance &tolerance) const override
     {
       ContactSolution solution;
-      const double    scale = problem.impulse_scale, n = std::max<double>(1., problem.contacts.size());
       apply_impulses(problem);
       while (solution.sweeps < tolerance.max_sweeps)
         {
           const SweepSums sums = sweep<true, false>(problem);
           ++solution.sweeps;
           // The changes of a sweep only hint at the residual after it, so measure before believing.
-          if (std::sqrt(sums.change / n) <= tolerance.residual * scale)
+          if (relative_change(sums, problem) <= tolerance.residual)
             {
               measure_residual(problem, solution);
               if (solution.residual <= tolerance.residual && solution.violation <= tolerance.violation)

@@ -22,7 +22,7 @@ namespace alluvium::grains
 
   void measure_residual(const ContactProblem &problem, ContactSolution &solution)
   {
-    double                    sum = 0., largest = 0.;
+    double                    sum = 0., largest = 0., size = 0.;
     const DiscVelocity *const v = problem.velocity.data();
     for (const Contact &c : problem.contacts)
       {
@@ -34,10 +34,12 @@ namespace alluvium::grains
         const double rt    = std::min(limit, std::max(-limit, c.rt - vt * c.mass_t));
         const double d     = (rn - c.rn) * (rn - c.rn) + (rt - c.rt) * (rt - c.rt);
         sum += d;
+        size += c.rn * c.rn + c.rt * c.rt;
         largest = std::max(largest, d);
       }
-    const double n      = std::max<double>(1., problem.contacts.size());
-    solution.residual   = std::sqrt(sum / n) / problem.impulse_scale;
-    solution.violation  = std::sqrt(largest) / problem.impulse_scale;
+    const double n     = std::max<double>(1., problem.contacts.size());
+    const double scale = std::max(std::sqrt(size / n), problem.impulse_scale);
+    solution.residual  = std::sqrt(sum / n) / scale;
+    solution.violation = std::sqrt(largest) / scale;
   }
 } // namespace alluvium::grains

@@ -1,6 +1,6 @@
 // Cost and quality of the contact step on settled beds.
 //
-//   benchmark_contacts [--solver NAME] [--time SECONDS] [--dt DT]... [--shake V] [BED.bin]...
+//   benchmark_contacts [--solver NAME] [--time SECONDS] [--dt DT]... [--shake V] [--tolerance T] [BED.bin]...
 //
 // Without beds it settles its own, of 2,000 and 10,000 discs. A bed file is int32 N, double width, then N rows of x y radius vx vy
 // spin * radius; its walls are x = 0, x = width and y = 0. --shake gives every grain a random velocity up to V m/s at the start of
@@ -90,13 +90,15 @@ namespace
     return bed;
   }
 
-  void measure(const Bed &bed, const std::string &solver, const double dt, const double time, const double shake)
+  void measure(const Bed &bed, const std::string &solver, const double dt, const double time, const double shake, const double tolerance)
   {
     GrainArrays    g = bed.grains;
     ContactStepper stepper;
     dealii::ParameterHandler prm;
     stepper.add_parameters(prm);
     prm.set("Contact solver", solver);
+    if (tolerance > 0.)
+      stepper.settings().residual_tolerance = tolerance;
     const double w = bed.width, h = 1e3 * w;
     stepper.set_walls({{{{0., h}}, {{0., 0.}}, {{0., 0.}}, "left"},
                        {{{0., 0.}}, {{w, 0.}}, {{0., 0.}}, "bottom"},
@@ -167,8 +169,9 @@ namespace
 
 int main(int argc, char **argv)
 {
+  setlinebuf(stdout);
   std::string         solver = "accelerated Gauss-Seidel";
-  double              time = 0.05, shake = 0.;
+  double              time = 0.05, shake = 0., tolerance = 0.;
   std::vector<double> dts;
   std::vector<Bed>    beds;
   for (int k = 1; k < argc; ++k)
@@ -180,6 +183,8 @@ int main(int argc, char **argv)
         time = std::atof(argv[++k]);
       else if (a == "--dt" && k + 1 < argc)
         dts.push_back(std::atof(argv[++k]));
+      else if (a == "--tolerance" && k + 1 < argc)
+        tolerance = std::atof(argv[++k]);
       else if (a == "--shake" && k + 1 < argc)
         shake = std::atof(argv[++k]);
       else
@@ -192,5 +197,5 @@ int main(int argc, char **argv)
     dts = {1e-4, 1e-3};
   for (const Bed &bed : beds)
     for (const double dt : dts)
-      measure(bed, solver, dt, time, shake);
+      measure(bed, solver, dt, time, shake, tolerance);
 }

@@ -48,7 +48,7 @@ namespace alluvium::grains
     std::vector<DiscVelocity> velocity; // in: free velocities; out: with the contact impulses. n_discs + dummies
     std::vector<DiscMass>     mass;     // n_discs
     std::vector<Contact>      contacts; // in: warm impulses; out: the solution. Neighbours in the list share no disc
-    double                    impulse_scale = 1.; // what residuals are divided by [N s/m]: mean mass * g * dt, say
+    double                    impulse_scale = 1.; // smallest impulse that matters [N s/m]: mean mass * g * dt, say
   };
 
   /** Add the velocities that the impulses in @p problem cause to its velocities. */

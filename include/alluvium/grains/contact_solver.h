@@ -11,7 +11,7 @@ namespace alluvium::grains
 {
   /**
    * When a contact solution is good enough. Both numbers are about the natural map: how far an impulse would still move if its
-   * contact alone were solved once more, over the problem's impulse scale. So both are dimensionless, and neither is a length.
+   * contact alone were solved once more, over the root mean square of the impulses (at least the problem's impulse scale).
    */
   struct ContactTolerance
   {

@@ -28,10 +28,11 @@ namespace alluvium::grains
     double       residual_tolerance  = 1e-5;
     double       violation_tolerance = 1e-3;
     unsigned int max_sweeps          = 3000;
-    unsigned int max_halvings        = 6;
+    unsigned int max_halvings        = 4;
     double       max_move            = 0.25; // of the smallest diameter, in one sub-step
     double       dead_zone           = 5e-4; // times dt sqrt(g d)
-    double       push_out            = 0.1;  // times sqrt(g d)
+    double       correction          = 0.2;  // part of an overlap that one (unhalved) sub-step opens
+    double       push_out            = 0.1;  // times sqrt(g d): and how fast at most
     double       skin                = 0.15; // of the largest diameter
   };
 
@@ -43,6 +44,7 @@ namespace alluvium::grains
     unsigned int       n_contacts    = 0; // that carried an impulse in the last sub-step
     unsigned int       n_substeps    = 0;
     unsigned int       n_halvings    = 0; // sub-steps taken as two halves: no convergence, or grains moved too far
+    unsigned int       n_loose       = 0; // solves that ran out of sweeps between one and ten times the tolerance
     unsigned int       n_unconverged = 0; // sub-steps accepted above the tolerance, because halving did not help
     unsigned long long n_sweeps      = 0;
     unsigned long long n_updates     = 0; // contacts relaxed, over all sweeps

@@ -3,6 +3,7 @@
 #include <alluvium/grains/contact_problem.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace alluvium::grains
 {
@@ -10,8 +11,16 @@ namespace alluvium::grains
   struct SweepSums
   {
     double change = 0.; // sum of squared impulse changes [(N s/m)^2]
+    double size   = 0.; // sum of squared impulses
     double work   = 0.; // sum of bias . impulse, part of the objective [J/m]
   };
+
+  /** Relative change of a sweep over n contacts, in the measure of ContactTolerance. */
+  inline double relative_change(const SweepSums &sums, const ContactProblem &problem)
+  {
+    const double n = std::max<double>(1., problem.contacts.size());
+    return std::sqrt(sums.change / n) / std::max(std::sqrt(sums.size / n), problem.impulse_scale);
+  }
 
   /** Exact solution of one contact with all others held: two clamps. Returns the squared impulse change. */
   inline double relax(Contact &c, DiscVelocity &vi, DiscVelocity &vj, const double rn_start, const double rt_start)
@@ -61,6 +70,7 @@ namespace alluvium::grains
             rt += beta * (rt - last_rt);
           }
         sums.change += relax(contact, v[contact.i], v[contact.j], rn, rt);
+        sums.size += contact.rn * contact.rn + contact.rt * contact.rt;
         sums.work += contact.bias_n * contact.rn + contact.bias_t * contact.rt;
       }
     return sums;
