@@ -264,8 +264,10 @@ namespace alluvium::mesh
         std::ostringstream buffer;
         if (!std::filesystem::exists(mesh_path, ignored))
           content[1] = "does not exist.";
-        else if (std::filesystem::is_directory(mesh_path, ignored) || !(buffer << file.rdbuf()))
+        else if (std::filesystem::is_directory(mesh_path, ignored) || !file)
           content[1] = "cannot be read.";
+        else if (!(buffer << file.rdbuf()))
+          content[1] = "is empty.";
         content[0] = buffer.str();
       }
     content = Utilities::MPI::broadcast(communicator, content);

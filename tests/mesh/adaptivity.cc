@@ -1,0 +1,354 @@
+#include "test_mesh.h"
+
+#include <alluvium/mesh/adaptivity.h>
+#include <alluvium/mesh/field_transfer.h>
+
+#include <deal.II/base/function_lib.h>
+#include <deal.II/distributed/tria.h>
+#include <deal.II/dofs/dof_renumbering.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/mapping_q1.h>
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/numerics/vector_tools.h>
+
+#include <cmath>
+
+namespace
+{
+  using namespace dealii;
+  using namespace alluvium;
+  using namespace alluvium::mesh;
+  using namespace mesh_test;
+
+  using Parameters = std::vector<std::pair<std::string, std::string>>;
+
+  /** A bed of grains of diameter @p d in rows, from y = @p bottom to @p top, in 0 <= x <= 1. */
+  grains::GrainArrays make_bed(const double d, const double bottom, const double top)
+  {
+    grains::GrainArrays result;
+    for (double y = bottom + d / 2.; y < top; y += d)
+      for (double x = d / 2.; x < 1.; x += d)
+        {
+          result.x.push_back(x);
+          result.y.push_back(y);
+        }
+    const auto n = result.n();
+    result.resize(n);
+    for (std::size_t i = 0; i < n; ++i)
+      {
+        result.id[i]     = i;
+        result.radius[i] = d / 2.;
+      }
+    return result;
+  }
+
+  double size(const Triangulation<2>::active_cell_iterator &cell)
+  {
+    return cell->diameter() / std::sqrt(2.);
+  }
+
+  /** The unit square with a mesh for @p context. */
+  struct Scene
+  {
+    Scene(const Parameters &parameters, const RefinementContext &context)
+    {
+      set_parameters(adaptivity, prm, parameters);
+      domain.initialize(MPI_COMM_WORLD, "");
+      mesh   = domain.make_triangulation(adaptivity.coarse_size(context));
+      report = adaptivity.make_initial_mesh(*mesh, context);
+    }
+
+    ParameterHandler                  prm;
+    Domain<2>                         domain;
+    Adaptivity<2>                     adaptivity;
+    std::unique_ptr<Triangulation<2>> mesh;
+    AdaptationReport                  report;
+  };
+
+  const double d = 1. / 64.;
+
+  TEST(BedFaces, AreThoseOfTheBedAndNotOfStrayGrains)
+  {
+    auto       grains = make_bed(d, 0.25, 0.5);
+    const auto clean  = find_bed_faces(grains, 0., 1.);
+    ASSERT_EQ(clean.columns.size(), 8u);
+    EXPECT_NEAR(clean.top(), 0.5, 1e-12);
+    EXPECT_NEAR(clean.bottom(), 0.25, 1e-12);
+    EXPECT_NEAR(mean_diameter(grains), d, 1e-12);
+
+    // two grains fly above one column and one lies below another
+    const auto n = grains.n();
+    grains.resize(n + 3);
+    grains.x[n] = 0.03, grains.y[n] = 0.9, grains.radius[n] = d / 2.;
+    grains.x[n + 1] = 0.05, grains.y[n + 1] = 0.8, grains.radius[n + 1] = d / 2.;
+    grains.x[n + 2] = 0.7, grains.y[n + 2] = 0.1, grains.radius[n + 2] = d / 2.;
+    const auto disturbed = find_bed_faces(grains, 0., 1.);
+    EXPECT_NEAR(disturbed.top(), 0.5, 1e-12);
+    EXPECT_NEAR(disturbed.bottom(), 0.25, 1e-12);
+
+    EXPECT_TRUE(find_bed_faces(grains::GrainArrays(), 0., 1.).empty());
+  }
+
+  TEST(BedFaces, FollowAStep)
+  {
+    auto grains = make_bed(d, 0., 0.5);
+    for (std::size_t i = 0; i < grains.n(); ++i)
+      if (grains.x[i] > 0.5)
+        grains.y[i] *= 0.5;
+    const auto faces = find_bed_faces(grains, 0., 1.);
+    EXPECT_NEAR(faces.distance_to_top({{0.1, 0.5}}, {{0.2, 0.6}}), 0., 1e-12);
+    EXPECT_NEAR(faces.distance_to_top({{0.8, 0.55}}, {{0.9, 0.6}}), 0.3, 1.5 * d);
+    EXPECT_NEAR(faces.distance_to_bottom({{0.8, 0.5}}, {{0.9, 0.6}}), 0.5, 1.5 * d);
+  }
+
+  TEST(Adaptivity, UniformGivesExactlyTheWantedSize)
+  {
+    for (const double h : {0.5, 1., 4.})
+      {
+        const Scene scene(
+          {{"Mesh refinement/Criteria", "uniform"}, {"Mesh refinement/Criteria: uniform/Cell size", std::to_string(h)}},
+          make_refinement_context(make_bed(d, 0., 0.5), 0., 1.));
+        EXPECT_NEAR(scene.report.smallest / d, h, 1e-6);
+        EXPECT_NEAR(scene.report.largest / d, h, 1e-6);
+        EXPECT_TRUE(scene.report.satisfied);
+      }
+  }
+
+  TEST(Adaptivity, BedFacesAreFineAndTheRestGrowsCoarse)
+  {
+    const auto  context = make_refinement_context(make_bed(d, 0.25, 0.5), 0., 1.);
+    const Scene scene({{"Mesh refinement/Criteria: bed faces/Cell size at the bottom", "1"},
+                       {"Mesh refinement/Criteria: bed faces/Cell size at the top", "0.5"}},
+                      context);
+    EXPECT_TRUE(scene.report.satisfied);
+    EXPECT_FALSE(scene.report.limited);
+    EXPECT_NEAR(scene.report.smallest / d, 0.5, 1e-6);
+    EXPECT_NEAR(scene.report.largest / d, 8., 1e-6);
+    EXPECT_LT(scene.report.n_cells, 128u * 128u / 4u);
+    for (const auto &cell : scene.mesh->active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const auto box     = cell->bounding_box().get_boundary_points();
+          const auto touches = [&](const double y) {
+            return box.first[1] <= y + 2. * d && box.second[1] >= y - 2. * d;
+          };
+          if (touches(0.25))
+            {
+              EXPECT_LE(size(cell), d * (1. + 1e-6));
+            }
+          if (touches(0.5))
+            {
+              EXPECT_LE(size(cell), 0.5 * d * (1. + 1e-6));
+            }
+          for (const unsigned int f : cell->face_indices())
+            if (!cell->face(f)->at_boundary() && cell->neighbor(f)->is_active())
+              {
+                EXPECT_LE(std::abs(cell->level() - cell->neighbor(f)->level()), 1);
+              }
+        }
+  }
+
+  TEST(Adaptivity, SmallestWishWinsAndLimitsHold)
+  {
+    const auto  context = make_refinement_context(make_bed(d, 0.25, 0.5), 0., 1.);
+    const Scene both(
+      {{"Mesh refinement/Criteria", "bed faces, uniform"}, {"Mesh refinement/Criteria: uniform/Cell size", "2"}},
+      context);
+    EXPECT_NEAR(both.report.smallest / d, 1., 1e-6);
+    EXPECT_NEAR(both.report.largest / d, 2., 1e-6);
+
+    const Scene limited({{"Mesh refinement/Finest cell size", "2"}, {"Mesh refinement/Coarsest cell size", "4"}},
+                        context);
+    EXPECT_NEAR(limited.report.smallest / d, 2., 1e-6);
+    EXPECT_NEAR(limited.report.largest / d, 4., 1e-6);
+
+    const Scene levels({{"Mesh refinement/Max levels", "1"}}, context);
+    EXPECT_NEAR(levels.report.smallest / d, 4., 1e-6);
+    EXPECT_TRUE(levels.report.limited);
+    EXPECT_FALSE(levels.report.satisfied);
+  }
+
+  TEST(Adaptivity, SettlesAtOnceAndFollowsTheBed)
+  {
+    const auto context = make_refinement_context(make_bed(d, 0.25, 0.5), 0., 1.);
+    Scene      scene({}, context);
+    for (unsigned int repeat = 0; repeat < 2; ++repeat)
+      {
+        const auto report = scene.adaptivity.adapt(*scene.mesh, context, {}, {});
+        EXPECT_FALSE(report.changed);
+      }
+    // a bed that trembles by half a diameter to and fro changes the mesh at most once
+    const auto shaken = make_refinement_context(make_bed(d, 0.25 + d / 2., 0.5 + d / 2.), 0., 1.);
+    scene.adaptivity.adapt(*scene.mesh, shaken, {}, {});
+    EXPECT_FALSE(scene.adaptivity.adapt(*scene.mesh, context, {}, {}).changed);
+    EXPECT_FALSE(scene.adaptivity.adapt(*scene.mesh, shaken, {}, {}).changed);
+    // far away, the old bands are given up
+    const auto moved  = make_refinement_context(make_bed(d, 0.5, 0.75), 0., 1.);
+    const auto report = scene.adaptivity.adapt(*scene.mesh, moved, {}, {});
+    EXPECT_TRUE(report.changed);
+    EXPECT_TRUE(report.satisfied);
+    const Scene direct({}, moved);
+    EXPECT_LT(report.n_cells, 1.3 * direct.report.n_cells);
+    EXPECT_FALSE(scene.adaptivity.adapt(*scene.mesh, moved, {}, {}).changed);
+  }
+
+  TEST(Adaptivity, TooManyCellsAreRefusedAtTheStartAndAvoidedLater)
+  {
+    const auto context = make_refinement_context(make_bed(d, 0.25, 0.5), 0., 1.);
+    EXPECT_TRUE(contains(error_of([&] { Scene({{"Mesh refinement/Max cells", "500"}}, context); }), "Max cells"));
+
+    // enough for the initial mesh, not for its doubling
+    const Scene reference({}, context);
+    const auto  n = std::to_string(reference.report.n_cells + 200);
+    Scene       scene({{"Mesh refinement/Max cells", n}}, context);
+    auto        tilted = make_bed(d, 0.25, 0.5);
+    for (std::size_t i = 0; i < tilted.n(); ++i)
+      tilted.y[i] += tilted.x[i] < 0.5 ? 0.3 : -0.2;
+    const auto report = scene.adaptivity.adapt(*scene.mesh, make_refinement_context(tilted, 0., 1.), {}, {});
+    EXPECT_LE(report.n_cells, std::stoul(n));
+  }
+
+  TEST(Adaptivity, TrianglesStayAsTheyAre)
+  {
+    ParameterHandler prm, other_prm;
+    Domain<2>        domain;
+    set_parameters(domain, prm, {{"Domain/Mesh file", "triangles_41.msh"}});
+    domain.initialize(MPI_COMM_WORLD, std::string(ALLUVIUM_TEST_DATA) + "/data");
+    const auto    mesh    = domain.make_triangulation(0.);
+    const auto    context = make_refinement_context(make_bed(d, 0.25, 0.5), 0., 1.);
+    Adaptivity<2> asked, quiet;
+    set_parameters(asked, prm, {});
+    EXPECT_TRUE(contains(error_of([&] { asked.make_initial_mesh(*mesh, context); }), "Interval = 0"));
+    set_parameters(quiet, other_prm, {{"Mesh refinement/Interval", "0"}});
+    const auto report = quiet.make_initial_mesh(*mesh, context);
+    EXPECT_FALSE(report.changed);
+    EXPECT_FALSE(report.satisfied);
+    EXPECT_FALSE(quiet.due(50));
+    EXPECT_TRUE(asked.due(50));
+    EXPECT_FALSE(asked.due(0));
+    EXPECT_FALSE(asked.due(51));
+  }
+
+  TEST(Adaptivity, FewerCellsThanRanksIsAnError)
+  {
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    Domain<2>          domain;
+    domain.initialize(MPI_COMM_WORLD, "");
+    const auto mesh = domain.make_triangulation(1.);
+    if (n_ranks == 1)
+      Domain<2>::check_partition(*mesh);
+    else
+      EXPECT_TRUE(contains(error_of([&] { Domain<2>::check_partition(*mesh); }), "has 1 cells, too few for"));
+  }
+
+  /** A velocity-pressure space like the fluid's, rebuilt as often as asked. */
+  struct Space
+  {
+    explicit Space(const Triangulation<2> &mesh)
+      : element(FE_Q<2>(1), 3)
+      , dofs(mesh)
+      , nodal_dofs(mesh)
+    {
+      rebuild();
+    }
+
+    void rebuild()
+    {
+      dofs.distribute_dofs(element);
+      DoFRenumbering::Cuthill_McKee(dofs);
+      const std::vector<unsigned int> block{0, 0, 1};
+      DoFRenumbering::component_wise(dofs, block);
+      nodal_dofs.distribute_dofs(FE_Q<2>(1));
+      const auto n = DoFTools::count_dofs_per_fe_block(dofs, block);
+      IndexSet   relevant;
+      DoFTools::extract_locally_relevant_dofs(dofs, relevant);
+      DoFTools::extract_locally_relevant_dofs(nodal_dofs, relevant_nodal);
+      owned   = {dofs.locally_owned_dofs().get_view(0, n[0]), dofs.locally_owned_dofs().get_view(n[0], n[0] + n[1])};
+      ghosted = {relevant.get_view(0, n[0]), relevant.get_view(n[0], n[0] + n[1])};
+      hanging.clear();
+      hanging.reinit(relevant);
+      DoFTools::make_hanging_node_constraints(dofs, hanging);
+      hanging.close();
+      nodal_hanging.clear();
+      nodal_hanging.reinit(relevant_nodal);
+      DoFTools::make_hanging_node_constraints(nodal_dofs, nodal_hanging);
+      nodal_hanging.close();
+    }
+
+    mesh::BlockVector field() const { return mesh::BlockVector(owned, ghosted, MPI_COMM_WORLD); }
+    mesh::Vector      nodal_field() const
+    {
+      return mesh::Vector(nodal_dofs.locally_owned_dofs(), relevant_nodal, MPI_COMM_WORLD);
+    }
+
+    FESystem<2>               element;
+    DoFHandler<2>             dofs, nodal_dofs;
+    AffineConstraints<double> hanging, nodal_hanging;
+    std::vector<IndexSet>     owned, ghosted;
+    IndexSet                  relevant_nodal;
+  };
+
+  class LinearField : public Function<2>
+  {
+  public:
+    explicit LinearField(const unsigned int n_components)
+      : Function<2>(n_components)
+    {}
+    double value(const Point<2> &p, const unsigned int component) const override
+    {
+      return 1. + component + (2. + component) * p[0] - 3. * p[1];
+    }
+  };
+
+  TEST(FieldTransfer, LinearFieldsSurviveRefinementAndCoarseningExactly)
+  {
+    const auto context = make_refinement_context(make_bed(d, 0.25, 0.5), 0., 1.);
+    Scene      scene({}, context);
+    Space      space(*scene.mesh);
+
+    mesh::BlockVector field = space.field(), second = space.field();
+    mesh::Vector      nodal = space.nodal_field();
+    VectorTools::interpolate(space.dofs, LinearField(3), field);
+    VectorTools::interpolate(space.nodal_dofs, LinearField(1), nodal);
+    second = field;
+    second *= 2.;
+    for (auto *f : {&field, &second})
+      f->update_ghost_values();
+    nodal.update_ghost_values();
+
+    FieldTransfer<2> transfer(space.dofs, space.nodal_dofs);
+    unsigned int     n_before = 0, n_after = 0;
+    const auto       moved  = make_refinement_context(make_bed(d, 0.4, 0.7), 0., 1.);
+    const auto       report = scene.adaptivity.adapt(
+      *scene.mesh,
+      moved,
+      [&] {
+        transfer.prepare({&field, &second}, {&nodal});
+        ++n_before;
+      },
+      [&] {
+        space.rebuild();
+        field = second = space.field();
+        nodal          = space.nodal_field();
+        transfer.interpolate({&field, &second}, space.hanging, {&nodal}, space.nodal_hanging);
+        ++n_after;
+      });
+    EXPECT_TRUE(report.changed);
+    EXPECT_EQ(n_before, report.n_rounds);
+    EXPECT_EQ(n_after, report.n_rounds);
+
+    mesh::BlockVector exact       = space.field();
+    mesh::Vector      exact_nodal = space.nodal_field();
+    VectorTools::interpolate(space.dofs, LinearField(3), exact);
+    VectorTools::interpolate(space.nodal_dofs, LinearField(1), exact_nodal);
+    exact -= field;
+    exact_nodal -= nodal;
+    EXPECT_LT(exact.linfty_norm(), 1e-13);
+    EXPECT_LT(exact_nodal.linfty_norm(), 1e-13);
+    second.add(-2., field);
+    EXPECT_LT(second.linfty_norm(), 1e-13);
+    EXPECT_TRUE(field.has_ghost_elements());
+  }
+} // namespace

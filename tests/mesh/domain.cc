@@ -1,0 +1,217 @@
+#include "test_mesh.h"
+
+#include <deal.II/grid/tria_accessor.h>
+#include <deal.II/grid/tria_iterator.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace
+{
+  using namespace dealii;
+  using namespace alluvium;
+  using namespace mesh_test;
+  using mesh::Domain;
+
+  const std::string data = std::string(ALLUVIUM_TEST_DATA) + "/data";
+
+  std::string content(const std::string &name)
+  {
+    std::ifstream      file(data + "/" + name);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+
+  /** Replace the first @p from in @p text by @p to. */
+  std::string replace(std::string text, const std::string &from, const std::string &to)
+  {
+    const auto position = text.find(from);
+    EXPECT_NE(position, std::string::npos) << from;
+    return text.replace(position, from.size(), to);
+  }
+
+  /** What the user is told about a mesh file with this @p text. */
+  std::string complaint_about(const std::string &text)
+  {
+    // one file a rank: a rank must not remove what another still reads
+    const std::string name =
+      "alluvium_domain_test_" + std::to_string(Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)) + ".msh";
+    const auto path = std::filesystem::temp_directory_path() / name;
+    std::ofstream(path) << text;
+    ParameterHandler prm;
+    Domain<2>        domain;
+    set_parameters(domain, prm, {{"Domain/Mesh file", name}});
+    const std::string error =
+      error_of([&] { domain.initialize(MPI_COMM_SELF, std::filesystem::temp_directory_path().string()); });
+    std::filesystem::remove(path);
+    EXPECT_TRUE(contains(error, name)) << error;
+    return error;
+  }
+
+  double measure_of(const Triangulation<2> &mesh)
+  {
+    double sum = 0.;
+    for (const auto &cell : mesh.active_cell_iterators())
+      if (cell->is_locally_owned())
+        sum += cell->measure();
+    return Utilities::MPI::sum(sum, mesh.get_communicator());
+  }
+
+  TEST(Domain, RectangleHasNamedBoundariesAndSquareCells)
+  {
+    ParameterHandler prm;
+    Domain<2>        domain;
+    set_parameters(domain, prm, {{"Domain/Lower left corner", "-1, 2"}, {"Domain/Upper right corner", "2.03, 3.2"}});
+    domain.initialize(MPI_COMM_WORLD, "");
+    EXPECT_TRUE(domain.is_rectangle());
+    EXPECT_FALSE(domain.has_triangles());
+
+    const auto mesh = domain.make_triangulation(0.25);
+    EXPECT_NEAR(measure_of(*mesh), 3.03 * 1.2, 1e-12);
+    for (const auto &cell : mesh->active_cell_iterators())
+      {
+        const auto box = cell->bounding_box();
+        EXPECT_LE(box.side_length(0), 0.25 * 1.02);
+        EXPECT_NEAR(box.side_length(0) / box.side_length(1), 1., 0.05);
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary())
+            {
+              const auto        center = cell->face(f)->center();
+              const std::string name   = center[0] == -1.                   ? "left"
+                                         : center[1] == 2.                  ? "bottom"
+                                         : std::abs(center[1] - 3.2) < 1e-9 ? "top"
+                                                                            : "right";
+              EXPECT_EQ(cell->face(f)->boundary_id(), domain.boundary_ids().at(name));
+            }
+      }
+  }
+
+  TEST(Domain, ThinRectangleHasSquareCells)
+  {
+    ParameterHandler prm;
+    Domain<2>        domain;
+    set_parameters(domain, prm, {{"Domain/Upper right corner", "10, 1.2"}});
+    domain.initialize(MPI_COMM_WORLD, "");
+    const auto box = domain.make_triangulation(1.)->begin()->bounding_box();
+    EXPECT_NEAR(box.side_length(0) / box.side_length(1), 1., 0.05);
+  }
+
+  TEST(Domain, RectangleWallsCloseTheBoxExceptWhereOpen)
+  {
+    ParameterHandler prm;
+    Domain<2>        domain;
+    set_parameters(domain, prm, {{"Domain/Upper right corner", "2, 1"}, {"Domain/Open to grains", "right, top"}});
+    domain.initialize(MPI_COMM_WORLD, "");
+    ASSERT_EQ(domain.walls().size(), 2u);
+    EXPECT_EQ(domain.walls()[0].name, "left");
+    EXPECT_EQ(domain.walls()[1].name, "bottom");
+    EXPECT_EQ(domain.walls()[0].b, domain.walls()[1].a); // they share the corner to the bit
+  }
+
+  TEST(Domain, BadParametersAreReported)
+  {
+    const auto error = [](const std::vector<std::pair<std::string, std::string>> &values) {
+      return error_of([&] {
+        ParameterHandler prm;
+        Domain<2>        domain;
+        set_parameters(domain, prm, values);
+        domain.initialize(MPI_COMM_WORLD, "");
+      });
+    };
+    EXPECT_TRUE(
+      contains(error({{"Domain/Upper right corner", "0, 1"}}), "Domain: the upper right corner must be above"));
+    EXPECT_TRUE(contains(error({{"Domain/Open to grains", "topp"}}), "no boundary named 'topp'"));
+    EXPECT_TRUE(contains(error({{"Domain/Mesh file", "/nowhere/mesh.msh"}}), "'/nowhere/mesh.msh' does not exist"));
+    EXPECT_TRUE(contains(error({{"Domain/Mesh file", "/tmp"}}), "'/tmp' cannot be read"));
+  }
+
+  TEST(Domain, WithoutACellSizeItAsksForOne)
+  {
+    Domain<2> domain;
+    domain.initialize(MPI_COMM_WORLD, "");
+    EXPECT_TRUE(contains(error_of([&] { domain.make_triangulation(0.); }), "Coarse cell size"));
+  }
+
+  class MeshFile : public testing::TestWithParam<const char *>
+  {
+  };
+
+  TEST_P(MeshFile, IsReadWithNamesBoxAndWalls)
+  {
+    ParameterHandler prm;
+    Domain<2>        domain;
+    set_parameters(domain, prm, {{"Domain/Mesh file", std::string(GetParam()) + ".msh"}});
+    domain.initialize(MPI_COMM_WORLD, data);
+    const bool triangles = contains(GetParam(), "triangles");
+    EXPECT_EQ(domain.has_triangles(), triangles);
+    EXPECT_EQ(domain.boundary_ids().size(), 5u);
+    EXPECT_NEAR(domain.lower().distance(Point<2>(0., 0.)), 0., 1e-12);
+    EXPECT_NEAR(domain.upper().distance(Point<2>(1., 1.)), 0., 1e-12);
+
+    // six straight sides, of which the step has two
+    EXPECT_EQ(domain.walls().size(), 6u);
+    double                     length = 0.;
+    std::multiset<std::string> names;
+    for (const auto &wall : domain.walls())
+      {
+        length += std::hypot(wall.b[0] - wall.a[0], wall.b[1] - wall.a[1]);
+        names.insert(wall.name);
+      }
+    EXPECT_NEAR(length, 4., 1e-12);
+    EXPECT_EQ(names, (std::multiset<std::string>{"floor", "outlet", "step", "step", "inlet", "back wall"}));
+
+    const auto mesh = domain.make_triangulation(0.);
+    EXPECT_NEAR(measure_of(*mesh), 0.75, 1e-12);
+    EXPECT_EQ(mesh->all_reference_cells_are_simplex(), triangles);
+    unsigned int n_owned = 0;
+    for (const auto &cell : mesh->active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          ++n_owned;
+          for (const unsigned int f : cell->face_indices())
+            if (cell->face(f)->at_boundary() && std::abs(cell->face(f)->center()[1]) < 1e-12)
+              {
+                EXPECT_EQ(cell->face(f)->boundary_id(), domain.boundary_ids().at("floor"));
+              }
+        }
+    const double fair = double(mesh->n_global_active_cells()) / Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    EXPECT_NEAR(n_owned, fair, triangles ? 1. : 0.5 * fair);
+  }
+
+  INSTANTIATE_TEST_SUITE_P(Gmsh,
+                           MeshFile,
+                           testing::Values("triangles_22", "triangles_41", "quadrilaterals_22", "quadrilaterals_41"));
+
+  TEST(Domain, MeshFilesThatCannotBeUsedAreExplained)
+  {
+    const std::string v2 = content("triangles_22.msh"), v4 = content("triangles_41.msh");
+    EXPECT_TRUE(contains(complaint_about(""), "is empty"));
+    EXPECT_TRUE(contains(complaint_about("solid stl"), "no section $MeshFormat"));
+    EXPECT_TRUE(contains(complaint_about(replace(v2, "2.2 0 8", "2.2 1 8")), "is binary"));
+    EXPECT_TRUE(contains(complaint_about(replace(v4, "4.1 0 8", "3 0 8")), "has format 3"));
+    EXPECT_TRUE(contains(complaint_about(replace(v4, "$PhysicalNames", "$PhysicalMames")), "no $PhysicalNames"));
+    EXPECT_TRUE(contains(complaint_about(replace(v4, "\"outlet\"", "\"floor\"")), "two physical curves named 'floor'"));
+    EXPECT_TRUE(
+      contains(complaint_about(replace(v2, "1 2 \"outlet\"", "1 77 \"outlet\"")), ") is in no named physical curve"));
+    EXPECT_TRUE(contains(complaint_about(v4.substr(0, v4.size() / 2)), "'"));
+    EXPECT_TRUE(contains(complaint_about(v2.substr(0, v2.size() - 200)), "$Elements"));
+    // a tetrahedron, a node out of the plane, a second-order triangle, and lines only
+    const std::string head =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n1 1 \"all\"\n$EndPhysicalNames\n";
+    const std::string nodes    = "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 1 1 0\n$EndNodes\n";
+    const auto        elements = [](const std::string &line) { return "$Elements\n1\n" + line + "\n$EndElements\n"; };
+    EXPECT_TRUE(contains(complaint_about(head + nodes + elements("1 4 2 1 1 1 2 3 4")), "3-D mesh"));
+    EXPECT_TRUE(contains(complaint_about(head + nodes + elements("1 9 2 1 1 1 2 3 4 4 4")), "only linear"));
+    EXPECT_TRUE(contains(complaint_about(head + nodes + elements("1 1 2 1 1 1 2")), "Physical Surface"));
+    EXPECT_TRUE(contains(complaint_about(head + replace(nodes, "4 1 1 0", "4 1 1 1") + elements("1 3 2 1 1 1 2 4 3")),
+                         "not in the plane"));
+    EXPECT_TRUE(
+      contains(complaint_about(head + nodes + "$Elements\n2\n1 2 2 1 1 1 2 3\n2 3 2 1 1 1 2 4 3\n$EndElements\n"),
+               "mixes triangles"));
+    EXPECT_TRUE(contains(complaint_about(head + nodes + elements("1 2 2 1 1 1 2 77")), "cannot be used"));
+  }
+} // namespace
