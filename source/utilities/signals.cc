@@ -1,6 +1,7 @@
 #include <alluvium/utilities/signals.h>
 
 #include <csignal>
+#include <initializer_list>
 
 namespace alluvium
 {
