@@ -24,13 +24,17 @@ namespace alluvium::observers
     }
 
     /** What a run writes, and nothing else that somebody may have put beside it. */
-    bool is_of_a_run(const fs::path &file)
+    bool is_of_a_run(const fs::directory_entry &entry)
     {
-      const std::string name = file.filename().string(), extension = file.extension().string();
-      for (const char *ours : {".vtu", ".pvtu", ".pvd", ".csv"})
+      const std::string name = entry.path().filename().string(), extension = entry.path().extension().string();
+      if (name.compare(0, 10, "checkpoint") == 0) // a folder; one left over would be what a restart starts from
+        return true;
+      if (!entry.is_regular_file())
+        return false;
+      for (const std::string ours : {".vtu", ".pvtu", ".pvd", ".csv", ".h5", ".xdmf"})
         if (extension == ours)
           return true;
-      return name == "summary.json" || name == "parameters.prm" || name.compare(0, 10, "checkpoint") == 0;
+      return name == "summary.json" || name == "parameters.prm";
     }
   } // namespace
 
@@ -96,9 +100,9 @@ namespace alluvium::observers
                  " holds an older run; name another one, or set 'Overwrite output folder = true' to replace it.");
     std::vector<fs::path> old;
     for (const auto &entry : fs::directory_iterator(folder))
-      if (entry.is_regular_file() && is_of_a_run(entry.path()))
+      if (is_of_a_run(entry))
         old.push_back(entry.path());
     for (const auto &file : old)
-      fs::remove(file);
+      fs::remove_all(file);
   }
 } // namespace alluvium::observers

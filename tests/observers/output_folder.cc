@@ -64,12 +64,13 @@ TEST_F(OutputFolderTest, OverwritesWhatARunWroteAndNothingElse)
 {
   std::filesystem::create_directory(path("old"));
   std::filesystem::create_directory(path("old/kept.vtu"));
-  for (const std::string name : {"statistics.csv", "grains-0001.vtu", "checkpoint.data", "notes.txt"})
+  std::filesystem::create_directory(path("old/checkpoint"));
+  for (const std::string name : {"statistics.csv", "grains-0001.vtu", "checkpoint/data", "notes.txt"})
     write("old/" + name, "text");
   EXPECT_EQ(create("old", true), "");
   EXPECT_FALSE(std::filesystem::exists(path("old/statistics.csv")));
   EXPECT_FALSE(std::filesystem::exists(path("old/grains-0001.vtu")));
-  EXPECT_FALSE(std::filesystem::exists(path("old/checkpoint.data")));
+  EXPECT_FALSE(std::filesystem::exists(path("old/checkpoint")));
   EXPECT_TRUE(std::filesystem::exists(path("old/notes.txt")));
   EXPECT_TRUE(std::filesystem::exists(path("old/kept.vtu")));
 }
