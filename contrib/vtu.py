@@ -40,7 +40,8 @@ def read_vtu(names):
     if isinstance(names, str):
         names = [names]
     pieces = [piece for name in names for piece in _pieces(name)]
-    pieces = [piece for piece in pieces if len(piece.points) > 0] or pieces[:1]
+    if not pieces:
+        return Grid(np.zeros((0, 3)), [], {})
     offset, cells = 0, []
     for piece in pieces:
         cells.extend(cell + offset for cell in piece.cells)
@@ -85,6 +86,8 @@ def _pieces(name):
 
     result = []
     for piece in root.iter("Piece"):
+        if int(piece.get("NumberOfPoints")) == 0:  # of a rank that has nothing: its arrays are not there
+            continue
         cells = {entry.get("Name"): array(entry) for entry in piece.find("Cells").iter("DataArray")}
         ends = cells["offsets"].astype(int)
         connectivity = cells["connectivity"].astype(int)
