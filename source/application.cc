@@ -218,7 +218,12 @@ namespace alluvium
 
   int run_application(int argc, char **argv)
   {
-    dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+    // Not our arguments: PETSc, which deal.II starts too, would take some for its own and complain about the others.
+    int    mpi_argc = 1;
+    char  *name[]   = {argv[0], nullptr};
+    char **mpi_argv = name;
+
+    dealii::Utilities::MPI::MPI_InitFinalize mpi(mpi_argc, mpi_argv, 1);
     const bool is_first_rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
 
     // A communicator of its own: what finish() sends must not meet what a failed step has left behind.
