@@ -11,24 +11,28 @@ namespace alluvium::grains
   /**
    * Gauss-Seidel sweeps with Nesterov momentum between them: about 3 n sweeps for a cold pile of n layers.
    *
-   * The momentum starts anew when the objective v.M v / 2 + b.r has grown (looked at every second iteration). It is capped
-   * for good when the residual stalls: friction makes the problem no minimisation, and momentum can then circle. After many
-   * forward sweeps, iterations become symmetric (forward, backward), which deep beds need for the momentum to be stable.
+   * The momentum starts anew when both the objective v.M v / 2 + b.r and the changes of a sweep have grown since two
+   * iterations ago. The objective alone is no judge where grains slide: friction makes the problem no minimisation, and
+   * near the solution the objective may have to grow. The momentum is capped when the residual stalls. After many
+   * forward sweeps, iterations become symmetric (forward, backward), which deep beds need for the momentum to be
+   * stable.
    */
   class AcceleratedGaussSeidel : public ContactSolver
   {
   public:
     void add_parameters(dealii::ParameterHandler &prm) override
     {
-      prm.add_parameter("Forward sweeps first",
-                        forward_sweeps,
-                        "How many forward sweeps to try before iterations become pairs of a forward and a backward sweep, "
-                        "which cost twice as much and converge on beds of any depth. 0: symmetric from the start.",
-                        dealii::Patterns::Integer(0));
-      prm.add_parameter("Stall sweeps",
-                        stall_sweeps,
-                        "The momentum is capped further whenever the residual has not dropped by 30 % in this many sweeps.",
-                        dealii::Patterns::Integer(1));
+      prm.add_parameter(
+        "Forward sweeps first",
+        forward_sweeps,
+        "How many forward sweeps to try before iterations become pairs of a forward and a backward sweep, "
+        "which cost twice as much and converge on beds of any depth. 0: symmetric from the start.",
+        dealii::Patterns::Integer(0));
+      prm.add_parameter(
+        "Stall sweeps",
+        stall_sweeps,
+        "The momentum is capped further whenever the residual has not dropped by 30 % in this many sweeps.",
+        dealii::Patterns::Integer(1));
     }
 
     ContactSolution solve(ContactProblem &problem, const ContactTolerance &tolerance) const override
@@ -44,6 +48,7 @@ namespace alluvium::grains
         }
 
       double       t = 1., beta = 0., cap = 1., objective = std::numeric_limits<double>::max();
+      double       last_change  = std::numeric_limits<double>::max();
       double       stall_change = std::numeric_limits<double>::max();
       unsigned int stall_start  = 0;
       for (unsigned int iteration = 0; solution.sweeps < tolerance.max_sweeps; ++iteration)
@@ -59,10 +64,10 @@ namespace alluvium::grains
             }
 
           const double change = relative_change(sums, problem);
-          if (change <= tolerance.residual)
+          if (change <= tolerance.allowance(solution.sweeps) * tolerance.residual)
             {
               measure_residual(problem, solution);
-              if (solution.residual <= tolerance.residual && solution.violation <= tolerance.violation)
+              if (solution.meets(tolerance))
                 {
                   solution.converged = true;
                   return solution;
@@ -79,9 +84,10 @@ namespace alluvium::grains
           if (iteration % 2 == 1)
             {
               const double now = kinetic_energy(problem) + sums.work;
-              if (now > objective)
+              if (now > objective && change > last_change)
                 t = 1.;
-              objective = now;
+              objective   = now;
+              last_change = change;
             }
           const double t_next = 0.5 * (1. + std::sqrt(1. + 4. * t * t));
           beta                = std::min(cap, (t - 1.) / t_next);

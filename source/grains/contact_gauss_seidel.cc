@@ -5,8 +5,8 @@
 namespace alluvium::grains
 {
   /**
-   * Plain non-linear Gauss-Seidel (Jean & Moreau's NSCD iteration). Cheapest per sweep; a cold pile of n layers needs some
-   * 2.7 n^2 sweeps, so it is for shallow or nearly settled scenes and for comparison.
+   * Plain non-linear Gauss-Seidel (Jean & Moreau's NSCD iteration). Cheapest per sweep; a cold pile of n layers needs
+   * some 2.7 n^2 sweeps, so it is for shallow or nearly settled scenes and for comparison.
    */
   class GaussSeidel : public ContactSolver
   {
@@ -20,10 +20,10 @@ namespace alluvium::grains
           const SweepSums sums = sweep<true, false>(problem);
           ++solution.sweeps;
           // The changes of a sweep only hint at the residual after it, so measure before believing.
-          if (relative_change(sums, problem) <= tolerance.residual)
+          if (relative_change(sums, problem) <= tolerance.allowance(solution.sweeps) * tolerance.residual)
             {
               measure_residual(problem, solution);
-              if (solution.residual <= tolerance.residual && solution.violation <= tolerance.violation)
+              if (solution.meets(tolerance))
                 {
                   solution.converged = true;
                   return solution;
@@ -35,9 +35,10 @@ namespace alluvium::grains
     }
   };
 
-  ALLUVIUM_REGISTER(ContactSolver,
-                    GaussSeidel,
-                    "Gauss-Seidel",
-                    "plain non-linear Gauss-Seidel sweeps: cheap per sweep, but a cold bed of n layers needs about 2.7 n^2 "
-                    "of them.")
+  ALLUVIUM_REGISTER(
+    ContactSolver,
+    GaussSeidel,
+    "Gauss-Seidel",
+    "plain non-linear Gauss-Seidel sweeps: cheap per sweep, but a cold bed of n layers needs about 2.7 n^2 "
+    "of them.")
 } // namespace alluvium::grains

@@ -93,9 +93,8 @@ namespace alluvium::grains
   void WallGeometry::set(std::vector<WallSegment> segments)
   {
     walls  = std::move(segments);
-    moving = std::any_of(walls.begin(), walls.end(), [](const WallSegment &w) {
-      return w.velocity[0] != 0. || w.velocity[1] != 0.;
-    });
+    moving = std::any_of(
+      walls.begin(), walls.end(), [](const WallSegment &w) { return w.velocity[0] != 0. || w.velocity[1] != 0.; });
     find_shared_ends();
   }
 
@@ -138,7 +137,8 @@ namespace alluvium::grains
       find_shared_ends();
   }
 
-  bool WallGeometry::touch(const std::size_t k, const double x, const double y, const double r, ContactPoint &point) const
+  bool
+  WallGeometry::touch(const std::size_t k, const double x, const double y, const double r, ContactPoint &point) const
   {
     const WallSegment &w = walls[k];
     const double       t = project(w, x, y);

@@ -13,11 +13,15 @@ namespace alluvium::grains
   namespace
   {
     constexpr const char *default_solver = "accelerated Gauss-Seidel";
-    constexpr std::size_t n_dummies      = 16; // stand for walls; several, so that wall contacts in a row stay independent
+    constexpr std::size_t n_dummies = 16; // stand for walls; several, so that wall contacts in a row stay independent
 
-    std::uint64_t key(const std::uint32_t a, const std::uint32_t b) { return (std::uint64_t(a) << 32) | b; }
+    std::uint64_t key(const std::uint32_t a, const std::uint32_t b)
+    {
+      return (std::uint64_t(a) << 32) | b;
+    }
 
-    /** Colours contacts such that those of one colour share no disc: the sweeps then run without waiting for each other. */
+    /** Colours contacts such that those of one colour share no disc: the sweeps then run without waiting for each
+     * other. */
     class Colouring
     {
     public:
@@ -98,11 +102,11 @@ namespace alluvium::grains
     /** A pair that takes part in the solve, before it becomes a Contact. */
     struct Active
     {
-      ContactPair  *pair;
-      ContactPoint  point;
-      double        bias;
-      unsigned int  colour;
-      bool          wall;
+      ContactPair *pair;
+      ContactPoint point;
+      double       bias;
+      unsigned int colour;
+      bool         wall;
     };
 
     mutable std::unique_ptr<ContactSolver> own_solver;
@@ -117,12 +121,12 @@ namespace alluvium::grains
     double               warm_dt = 0.;
 
     // Scratch of a sub-step.
-    ContactProblem             problem;
-    std::vector<DiscVelocity>  start, free_velocity;
-    std::vector<double>        inverse_mass, inverse_rotation;
-    std::vector<Active>        active, active_sorted;
-    std::vector<std::uint8_t>  disc_pair_active, wall_pair_active;
-    Colouring                  colouring;
+    ContactProblem            problem;
+    std::vector<DiscVelocity> start, free_velocity;
+    std::vector<double>       inverse_mass, inverse_rotation;
+    std::vector<Active>       active, active_sorted;
+    std::vector<std::uint8_t> disc_pair_active, wall_pair_active;
+    Colouring                 colouring;
 
     // Scratch of a step.
     std::vector<double>                px, py, sub_px, sub_py, sub_ps;
@@ -144,7 +148,7 @@ namespace alluvium::grains
     double largest_approach(const GrainArrays &grains) const;
     void   set_free_velocities(const GrainArrays &grains, const GrainLoads &loads, double h);
     void   activate(const GrainArrays &grains, double h, double delta, double margin, double push_out, bool keep);
-    void   build_contacts(double h, double delta, double push_out);
+    void   build_contacts();
     bool   add_violated(const GrainArrays &grains, double h);
     void   substep(GrainArrays &grains, const GrainLoads &loads, double h, unsigned int level, ContactReport &report);
   };
@@ -206,7 +210,9 @@ namespace alluvium::grains
     return std::sqrt(first) + std::sqrt(second);
   }
 
-  void ContactStepper::Implementation::set_free_velocities(const GrainArrays &grains, const GrainLoads &loads, const double h)
+  void ContactStepper::Implementation::set_free_velocities(const GrainArrays &grains,
+                                                           const GrainLoads  &loads,
+                                                           const double       h)
   {
     const std::size_t n = grains.n();
     start.resize(n);
@@ -225,11 +231,11 @@ namespace alluvium::grains
             continue;
           }
         const double m = grains.mass[k], m_e = m + h * loads.drag[k];
-        inverse_mass[k]  = 1. / m_e;
-        free_velocity[k] = {(m * start[k].x + h * loads.fx[k]) * inverse_mass[k],
-                            (m * start[k].y + h * loads.fy[k]) * inverse_mass[k],
-                            start[k].s,
-                            0.};
+        inverse_mass[k]       = 1. / m_e;
+        free_velocity[k]      = {(m * start[k].x + h * loads.fx[k]) * inverse_mass[k],
+                                 (m * start[k].y + h * loads.fy[k]) * inverse_mass[k],
+                                 start[k].s,
+                                 0.};
         const double rotation = disc_inertia(m, 1.);
         inverse_rotation[k]   = settings.rotation ? 1. / rotation : 0.;
         problem.mass[k]       = {m_e, settings.rotation ? rotation : 0.};
@@ -256,7 +262,8 @@ namespace alluvium::grains
       }
     colouring.reset(grains.n());
 
-    // v_n + bias >= 0: gaps within delta count as closed, so that a bed at rest does not chatter; overlaps open at bounded speed.
+    // v_n + bias >= 0: gaps within delta count as closed, so that a bed at rest does not chatter; overlaps open at
+    // bounded speed.
     const auto bias = [&](const double gap, const double vn_start, const double vn_free) {
       double b = 0.;
       if (gap > delta)
@@ -273,8 +280,9 @@ namespace alluvium::grains
         ContactPair        &p  = candidates.discs[k];
         const DiscVelocity &vi = free_velocity[p.i], &vj = free_velocity[p.j];
         const double        dx = grains.x[p.j] - grains.x[p.i], dy = grains.y[p.j] - grains.y[p.i];
-        const double        distance = std::sqrt(dx * dx + dy * dy), gap = distance - (grains.radius[p.i] + grains.radius[p.j]);
-        const double        approach = (vj.x - vi.x) * dx + (vj.y - vi.y) * dy;
+        const double        distance = std::sqrt(dx * dx + dy * dy),
+                     gap             = distance - (grains.radius[p.i] + grains.radius[p.j]);
+        const double approach        = (vj.x - vi.x) * dx + (vj.y - vi.y) * dy;
         if (!(keep && disc_pair_active[k]) && gap >= margin && (gap - margin) * distance + h * approach >= 0.)
           {
             p.rn = p.rt = 0.;
@@ -314,7 +322,7 @@ namespace alluvium::grains
       }
   }
 
-  void ContactStepper::Implementation::build_contacts(const double, const double, const double)
+  void ContactStepper::Implementation::build_contacts()
   {
     std::array<std::uint32_t, Colouring::n_colours + 1> begin{};
     for (const Active &a : active)
@@ -392,11 +400,8 @@ namespace alluvium::grains
     return found;
   }
 
-  void ContactStepper::Implementation::substep(GrainArrays       &grains,
-                                               const GrainLoads  &loads,
-                                               const double       h,
-                                               const unsigned int level,
-                                               ContactReport     &report)
+  void ContactStepper::Implementation::substep(
+    GrainArrays &grains, const GrainLoads &loads, const double h, const unsigned int level, ContactReport &report)
   {
     const std::size_t n = grains.n();
     set_free_velocities(grains, loads, h);
@@ -420,8 +425,8 @@ namespace alluvium::grains
       wall_speed = std::max(wall_speed, std::hypot(w.velocity[0], w.velocity[1]));
 
     // Scales: what gravity does in the sub-step; without gravity, what moves.
-    const auto   speed          = top_two(start);
-    double       velocity_scale = g * h;
+    const auto speed          = top_two(start);
+    double     velocity_scale = g * h;
     if (!(velocity_scale > 0.))
       velocity_scale = std::max({speed[0], top_two(free_velocity)[0], wall_speed});
     if (!(velocity_scale > 0.))
@@ -462,7 +467,11 @@ namespace alluvium::grains
       }
     double left = searched_skin - (fresh ? 0. : largest_approach(grains));
 
-    const ContactTolerance tolerance{settings.residual_tolerance, settings.violation_tolerance, settings.max_sweeps};
+    const ContactTolerance tolerance{settings.residual_tolerance,
+                                     settings.violation_tolerance,
+                                     settings.loose,
+                                     settings.patience,
+                                     settings.max_sweeps};
     ContactSolution        solution;
     std::array<double, 2>  end_speed{};
     bool                   too_far = false, keep = false;
@@ -470,7 +479,7 @@ namespace alluvium::grains
     for (unsigned int round = 0;; ++round)
       {
         activate(grains, h, delta, margin, push_out, keep);
-        build_contacts(h, delta, push_out);
+        build_contacts();
         problem.velocity = free_velocity;
         solution         = solver().solve(problem, tolerance);
         report.n_sweeps += solution.sweeps;
@@ -480,12 +489,8 @@ namespace alluvium::grains
             active_sorted[k].pair->rn = problem.contacts[k].rn;
             active_sorted[k].pair->rt = problem.contacts[k].rt;
           }
-        if (!solution.converged && solution.residual <= 10. * tolerance.residual &&
-            solution.violation <= tolerance.violation)
-          {
-            solution.converged = true;
-            ++report.n_loose;
-          }
+        if (solution.converged && solution.residual > settings.residual_tolerance)
+          ++report.n_loose;
         end_speed = top_two(problem.velocity);
         if (!std::isfinite(end_speed[0]))
           throw std::runtime_error("A grain velocity is not a finite number after the contact solve.");
@@ -592,23 +597,25 @@ namespace alluvium::grains
     double sum                = 0.;
     for (const double m : grains.mass)
       sum += 1. / m;
-    mean_mass = sum > 0. ? n / sum : 1.; // harmonic: the light grains decide, and fixed ones (infinite mass) do not count
+    mean_mass =
+      sum > 0. ? n / sum : 1.; // harmonic: the light grains decide, and fixed ones (infinite mass) do not count
 
     px.assign(n, 0.);
     py.assign(n, 0.);
     wall_impulse.assign(walls.segments().size(), {{0., 0.}});
 
-    // Sub-steps from the largest speed, now or at the end if last step's contact forces go on; substep() halves if that is wrong.
+    // Sub-steps from the largest speed, now or at the end if last step's contact forces go on; substep() halves if that
+    // is wrong.
     double speed = 0.;
     for (std::size_t k = 0; k < n; ++k)
       {
-        const double m = grains.mass[k];
+        const double m  = grains.mass[k];
         double       vx = grains.vx[k], vy = grains.vy[k];
         speed = std::max(speed, vx * vx + vy * vy);
         if (!std::isinf(m))
           {
-            vx = (m * vx + dt * (loads.fx[k] + grains.fcx[k])) / (m + dt * loads.drag[k]);
-            vy = (m * vy + dt * (loads.fy[k] + grains.fcy[k])) / (m + dt * loads.drag[k]);
+            vx    = (m * vx + dt * (loads.fx[k] + grains.fcx[k])) / (m + dt * loads.drag[k]);
+            vy    = (m * vy + dt * (loads.fy[k] + grains.fcy[k])) / (m + dt * loads.drag[k]);
             speed = std::max(speed, vx * vx + vy * vy);
           }
         if (!std::isfinite(vx * vx + vy * vy + grains.x[k] + grains.y[k]))
@@ -642,8 +649,10 @@ namespace alluvium::grains
         double             gap = 0.;
         ContactPoint       point;
         if (!a.wall)
-          gap = std::hypot(grains.x[p.j] - grains.x[p.i], grains.y[p.j] - grains.y[p.i]) -
-                (grains.radius[p.i] + grains.radius[p.j]);
+          {
+            const double dx = grains.x[p.j] - grains.x[p.i], dy = grains.y[p.j] - grains.y[p.i];
+            gap = std::sqrt(dx * dx + dy * dy) - (grains.radius[p.i] + grains.radius[p.j]);
+          }
         else if (walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point))
           gap = point.gap;
         if (gap < 0.)
@@ -670,7 +679,8 @@ namespace alluvium::grains
     using namespace dealii::Patterns;
     ContactSettings &s = implementation->settings;
     prm.add_parameter("Friction coefficient", s.friction, "Coulomb friction between grains [-].", Double(0.));
-    prm.add_parameter("Wall friction coefficient", s.wall_friction, "Coulomb friction between grains and walls [-].", Double(0.));
+    prm.add_parameter(
+      "Wall friction coefficient", s.wall_friction, "Coulomb friction between grains and walls [-].", Double(0.));
     prm.add_parameter("Restitution",
                       s.restitution,
                       "Newton's coefficient of restitution [-]: 0, an impact ends the approach; 1, it turns it around.",
@@ -680,48 +690,69 @@ namespace alluvium::grains
                       "Impacts slower than this do not bounce, so that grains come to rest [m/s].",
                       Double(0.));
     prm.add_parameter("Grains rotate", s.rotation, "If false, grains never spin, as if they were blocks.");
-    prm.add_parameter("Residual tolerance",
-                      s.residual_tolerance,
-                      "How far a contact impulse may be from its law, root mean square over all contacts, over the root mean "
-                      "square impulse or, if larger, that of the weight of one grain in a sub-step [-]. With much more than 1e-5 the "
-                      "floor of a bed no longer carries all of its weight.",
-                      Double(0.));
+    prm.add_parameter(
+      "Residual tolerance",
+      s.residual_tolerance,
+      "How far a contact impulse may be from its law, root mean square over all contacts, over the root mean "
+      "square impulse or, if larger, that of the weight of one grain in a sub-step [-]. With much more than 1e-5 the "
+      "floor of a bed no longer carries all of its weight.",
+      Double(0.));
     prm.add_parameter("Largest violation", s.violation_tolerance, "The same for the worst contact [-].", Double(0.));
+    prm.add_parameter(
+      "Patience",
+      s.patience,
+      "After this many sweeps the grains are taken to be on the move, and the looser tolerance will do.",
+      Integer(1));
+    prm.add_parameter(
+      "Loose factor",
+      s.loose,
+      "How much larger the residual tolerance and the largest violation are after that [-]. 1: never looser.",
+      Double(1.));
     prm.add_parameter("Largest number of sweeps",
                       s.max_sweeps,
                       "A sub-step that is not solved after this many sweeps is taken as two halves.",
                       Integer(1));
-    prm.add_parameter("Largest number of halvings",
-                      s.max_halvings,
-                      "How often a sub-step may be halved before its best solution is taken and reported as unconverged.",
-                      Integer(0, 20));
-    prm.add_parameter("Largest move per sub-step",
-                      s.max_move,
-                      "The fastest grain sets the sub-step: it moves at most by this fraction of the smallest diameter [-].",
-                      Double(1e-6, 1.));
-    prm.add_parameter("Dead zone",
-                      s.dead_zone,
-                      "Gaps and overlaps below this times dt sqrt(g d) count as closed [-], so that a bed at rest does not "
-                      "chatter: 1e-5 d at dt = 1e-4 s, 1e-4 d at 1e-3 s for sand of 0.2 mm. Never more than 1e-3 d.",
-                      Double(0.));
-    prm.add_parameter("Overlap correction",
-                      s.correction,
-                      "The part of an overlap that is opened in one sub-step [-]. Small values are gentle; an overlap is an error of "
-                      "the solver or of the initial state, and opening it costs spurious velocity.",
-                      Double(0., 1.));
-    prm.add_parameter("Push-out speed",
-                      s.push_out,
-                      "Overlaps that are there from the start open at most at this times sqrt(g d) [-], so that they do not explode.",
-                      Double(0.));
-    prm.add_parameter("Search skin",
-                      s.skin,
-                      "Pairs nearer than this fraction of the largest diameter are remembered between contact searches [-]. Only "
-                      "costs time, changes no result.",
-                      Double(1e-3));
-    implementation->choice.add_parameters(prm, "Contact solver", default_solver, "How the contact problem of a sub-step is solved.");
+    prm.add_parameter(
+      "Largest number of halvings",
+      s.max_halvings,
+      "How often a sub-step may be halved before its best solution is taken and reported as unconverged.",
+      Integer(0, 20));
+    prm.add_parameter(
+      "Largest move per sub-step",
+      s.max_move,
+      "The fastest grain sets the sub-step: it moves at most by this fraction of the smallest diameter [-].",
+      Double(1e-6, 1.));
+    prm.add_parameter(
+      "Dead zone",
+      s.dead_zone,
+      "Gaps and overlaps below this times dt sqrt(g d) count as closed [-], so that a bed at rest does not "
+      "chatter: 1e-5 d at dt = 1e-4 s, 1e-4 d at 1e-3 s for sand of 0.2 mm. Never more than 1e-3 d.",
+      Double(0.));
+    prm.add_parameter(
+      "Overlap correction",
+      s.correction,
+      "The part of an overlap that is opened in one sub-step [-]. Small values are gentle; an overlap is an error of "
+      "the solver or of the initial state, and opening it costs spurious velocity.",
+      Double(0., 1.));
+    prm.add_parameter(
+      "Push-out speed",
+      s.push_out,
+      "Overlaps that are there from the start open at most at this times sqrt(g d) [-], so that they do not explode.",
+      Double(0.));
+    prm.add_parameter(
+      "Search skin",
+      s.skin,
+      "Pairs nearer than this fraction of the largest diameter are remembered between contact searches [-]. Only "
+      "costs time, changes no result.",
+      Double(1e-3));
+    implementation->choice.add_parameters(
+      prm, "Contact solver", default_solver, "How the contact problem of a sub-step is solved.");
   }
 
-  ContactSettings &ContactStepper::settings() { return implementation->settings; }
+  ContactSettings &ContactStepper::settings()
+  {
+    return implementation->settings;
+  }
 
   void ContactStepper::set_walls(std::vector<WallSegment> walls)
   {
@@ -729,7 +760,10 @@ namespace alluvium::grains
     implementation->forget_search();
   }
 
-  const std::vector<WallSegment> &ContactStepper::walls() const { return implementation->walls.segments(); }
+  const std::vector<WallSegment> &ContactStepper::walls() const
+  {
+    return implementation->walls.segments();
+  }
 
   ContactReport ContactStepper::advance(GrainArrays                &grains,
                                         const GrainLoads           &loads,
@@ -739,9 +773,18 @@ namespace alluvium::grains
     return implementation->advance(grains, loads, dt, gravity);
   }
 
-  const std::vector<std::uint8_t> &ContactStepper::touched() const { return implementation->touched; }
+  const std::vector<std::uint8_t> &ContactStepper::touched() const
+  {
+    return implementation->touched;
+  }
 
-  ContactArchive ContactStepper::archive() const { return implementation->archive(); }
+  ContactArchive ContactStepper::archive() const
+  {
+    return implementation->archive();
+  }
 
-  void ContactStepper::set_archive(ContactArchive archive) { implementation->set_archive(std::move(archive)); }
+  void ContactStepper::set_archive(ContactArchive archive)
+  {
+    implementation->set_archive(std::move(archive));
+  }
 } // namespace alluvium::grains

@@ -1,10 +1,12 @@
 // Cost and quality of the contact step on settled beds.
 //
-//   benchmark_contacts [--solver NAME] [--time SECONDS] [--dt DT]... [--shake V] [--tolerance T] [BED.bin]...
+//   benchmark_contacts [--solver NAME] [--time SECONDS] [--dt DT]... [--shake V] [--fluidise A] [--set 'NAME =
+//   VALUE']... [BED.bin]...
 //
-// Without beds it settles its own, of 2,000 and 10,000 discs. A bed file is int32 N, double width, then N rows of x y radius vx vy
-// spin * radius; its walls are x = 0, x = width and y = 0. --shake gives every grain a random velocity up to V m/s at the start of
-// every millisecond, as a fluidised bed would.
+// Without beds it settles its own, of 2,000 and 10,000 discs. A bed file is int32 N, double width, then N rows of x y
+// radius vx vy spin * radius; its walls are x = 0, x = width and y = 0. --shake gives every grain a random velocity up
+// to V m/s at the start of every millisecond: the worst case. --fluidise A carries all grains with drag (relaxation
+// time 1 ms) and moves them up and down with a wave of A times their weight, as a fluidised bed would.
 #include <alluvium/grains/contact_stepper.h>
 #include <alluvium/grains/deposit.h>
 #include <alluvium/utilities/plugin.h>
@@ -45,7 +47,10 @@ namespace
     }
   };
 
-  double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+  double cpu_seconds()
+  {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+  }
 
   Bed read_bed(const std::string &file)
   {
@@ -79,26 +84,31 @@ namespace
     deposit->add_parameters(prm);
     prm.parse_input_from_string("set Number of grains = " + std::to_string(n) + "\nset Cache folder =\n");
     DepositContext context;
-    context.lower         = {{0., 0.}};
-    context.upper         = {{bed.width, 3. * bed.width}};
-    context.density       = density;
-    context.gravity       = {{0., -gravity}};
-    const double     t    = cpu_seconds();
+    context.lower   = {{0., 0.}};
+    context.upper   = {{bed.width, 3. * bed.width}};
+    context.density = density;
+    context.gravity = {{0., -gravity}};
+    const double t  = cpu_seconds();
     for (const Seed &s : deposit->make(context))
       bed.add(s.x, s.y, s.radius, s.vx, s.vy, s.omega);
     std::printf("settled %zu discs in %.2f s CPU\n", bed.grains.n(), cpu_seconds() - t);
     return bed;
   }
 
-  void measure(const Bed &bed, const std::string &solver, const double dt, const double time, const double shake, const double tolerance)
+  void measure(const Bed         &bed,
+               const std::string &solver,
+               const double       dt,
+               const double       time,
+               const double       shake,
+               const double       fluidise,
+               const std::string &set)
   {
-    GrainArrays    g = bed.grains;
-    ContactStepper stepper;
+    GrainArrays              g = bed.grains;
+    ContactStepper           stepper;
     dealii::ParameterHandler prm;
     stepper.add_parameters(prm);
     prm.set("Contact solver", solver);
-    if (tolerance > 0.)
-      stepper.settings().residual_tolerance = tolerance;
+    prm.parse_input_from_string(set);
     const double w = bed.width, h = 1e3 * w;
     stepper.set_walls({{{{0., h}}, {{0., 0.}}, {{0., 0.}}, "left"},
                        {{{0., 0.}}, {{w, 0.}}, {{0., 0.}}, "bottom"},
@@ -127,6 +137,13 @@ namespace
               g.vx[k] = shake * (2. * (random() >> 11) * 0x1p-53 - 1.);
               g.vy[k] = shake * (2. * (random() >> 11) * 0x1p-53 - 1.);
             }
+        if (fluidise > 0. && s >= 0)
+          for (std::size_t k = 0; k < g.n(); ++k)
+            {
+              const double wave = std::sin(4. * M_PI * g.x[k] / w + 20. * s * dt);
+              loads.drag[k]     = g.mass[k] / 1e-3;
+              loads.fy[k]       = g.mass[k] * gravity * fluidise * wave;
+            }
         const double t = cpu_seconds();
         report         = stepper.advance(g, loads, dt, {{0., -gravity}});
         if (s < 0)
@@ -141,37 +158,39 @@ namespace
         unconverged += report.n_unconverged;
         substeps += report.n_substeps;
         mean += report.mean_penetration / steps;
-        largest = std::max(largest, report.max_penetration);
+        largest  = std::max(largest, report.max_penetration);
         double f = 0.;
         for (const auto &[name, force] : report.wall_force)
           f -= force[1];
         support += f / weight / steps;
       }
-    std::printf("%-20s dt %.0e: cold %5llu sweeps; then sweeps/step %7.1f  ns/update %5.1f  CPU/0.01 s %.4f s  ms/step %.3f  "
-                "mean pen/d %.1e  max %.1e  support %.6f  vmax/gdt %.1e  contacts %u substeps %u halvings %u unconverged %u\n",
-                bed.name.c_str(),
-                dt,
-                first.n_sweeps,
-                double(sweeps) / steps,
-                1e9 * seconds / std::max(1ull, updates),
-                seconds * 0.01 / time,
-                1e3 * seconds / steps,
-                mean / diameter,
-                largest / diameter,
-                support,
-                report.max_velocity / (gravity * dt),
-                report.n_contacts,
-                substeps,
-                halvings,
-                unconverged);
+    std::printf(
+      "%-20s dt %.0e: cold %5llu sweeps; then sweeps/step %7.1f  ns/update %5.1f  CPU/0.01 s %.4f s  ms/step %.3f  "
+      "mean pen/d %.1e  max %.1e  support %.6f  vmax/gdt %.1e  contacts %u substeps %u halvings %u unconverged %u\n",
+      bed.name.c_str(),
+      dt,
+      first.n_sweeps,
+      double(sweeps) / steps,
+      1e9 * seconds / std::max(1ull, updates),
+      seconds * 0.01 / time,
+      1e3 * seconds / steps,
+      mean / diameter,
+      largest / diameter,
+      support,
+      report.max_velocity / (gravity * dt),
+      report.n_contacts,
+      substeps,
+      halvings,
+      unconverged);
   }
 } // namespace
 
 int main(int argc, char **argv)
 {
-  setlinebuf(stdout);
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
   std::string         solver = "accelerated Gauss-Seidel";
-  double              time = 0.05, shake = 0., tolerance = 0.;
+  double              time = 0.05, shake = 0., fluidise = 0.;
+  std::string         set;
   std::vector<double> dts;
   std::vector<Bed>    beds;
   for (int k = 1; k < argc; ++k)
@@ -183,8 +202,10 @@ int main(int argc, char **argv)
         time = std::atof(argv[++k]);
       else if (a == "--dt" && k + 1 < argc)
         dts.push_back(std::atof(argv[++k]));
-      else if (a == "--tolerance" && k + 1 < argc)
-        tolerance = std::atof(argv[++k]);
+      else if (a == "--set" && k + 1 < argc)
+        set += std::string("set ") + argv[++k] + "\n";
+      else if (a == "--fluidise" && k + 1 < argc)
+        fluidise = std::atof(argv[++k]);
       else if (a == "--shake" && k + 1 < argc)
         shake = std::atof(argv[++k]);
       else
@@ -197,5 +218,5 @@ int main(int argc, char **argv)
     dts = {1e-4, 1e-3};
   for (const Bed &bed : beds)
     for (const double dt : dts)
-      measure(bed, solver, dt, time, shake, tolerance);
+      measure(bed, solver, dt, time, shake, fluidise, set);
 }

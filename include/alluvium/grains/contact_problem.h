@@ -18,13 +18,14 @@ namespace alluvium::grains
   };
 
   /**
-   * One contact between discs i and j (or a wall in place of j) during one sub-step. The normal points from i to j, the tangent is
+   * One contact between discs i and j (or a wall in place of j) during one sub-step. The normal points from i to j, the
+   * tangent is
    * (-ny, nx), the impulse (rn, rt) acts on j and its opposite on i. With the relative velocities
    *
    *   v_n = (v_j - v_i).n                    v_t = (v_j - v_i).t - s_i - s_j
    *
-   * the laws are 0 <= v_n + bias_n  _|_  rn >= 0 and Coulomb's |rt| <= mu rn against v_t + bias_t. A disc touches at distance r
-   * from its centre along n, so normal and tangent do not see each other: the local problem is two clamps.
+   * the laws are 0 <= v_n + bias_n  _|_  rn >= 0 and Coulomb's |rt| <= mu rn against v_t + bias_t. A disc touches at
+   * distance r from its centre along n, so normal and tangent do not see each other: the local problem is two clamps.
    */
   struct alignas(64) Contact
   {
@@ -40,8 +41,8 @@ namespace alluvium::grains
   };
 
   /**
-   * All contacts of one sub-step. Walls are bodies that nothing moves: their velocity sits in the biases, and a few dummy
-   * entries behind the discs stand for them in `velocity`.
+   * All contacts of one sub-step. Walls are bodies that nothing moves: their velocity sits in the biases, and a few
+   * dummy entries behind the discs stand for them in `velocity`.
    */
   struct ContactProblem
   {

@@ -16,7 +16,8 @@ namespace alluvium::grains
     double        rn = 0., rt = 0.;
   };
 
-  /** Where a disc is nearest to something: unit normal from the disc towards it, and the gap [m], negative in overlap. */
+  /** Where a disc is nearest to something: unit normal from the disc towards it, and the gap [m], negative in overlap.
+   */
   struct ContactPoint
   {
     double nx, ny, gap;
@@ -33,8 +34,8 @@ namespace alluvium::grains
     const std::vector<WallSegment> &segments() const { return walls; }
 
     /**
-     * Move the walls on by @p dt [s]: by the normal part of their velocity only. The tangential part is that of a belt, it drags
-     * grains along and leaves the wall where it is.
+     * Move the walls on by @p dt [s]: by the normal part of their velocity only. The tangential part is that of a belt,
+     * it drags grains along and leaves the wall where it is.
      */
     void move(double dt);
 
@@ -42,9 +43,9 @@ namespace alluvium::grains
     bool touch(std::size_t k, double x, double y, double r, ContactPoint &point) const;
 
   private:
-    std::vector<WallSegment>                              walls;
+    std::vector<WallSegment>                               walls;
     std::vector<std::array<std::vector<std::uint32_t>, 2>> sharing; // other segments at ends a and b of each segment
-    bool                                                  moving = false;
+    bool                                                   moving = false;
 
     void find_shared_ends();
   };
@@ -56,9 +57,9 @@ namespace alluvium::grains
   };
 
   /**
-   * Find all pairs of grains, and of grains and walls, with gaps below @p skin [m]. Cells are as wide as the largest grain plus
-   * the skin, so a grain's partners are in its own cell and the eight around it. Throws std::runtime_error if a grain's position
-   * is not finite.
+   * Find all pairs of grains, and of grains and walls, with gaps below @p skin [m]. Cells are as wide as the largest
+   * grain plus the skin, so a grain's partners are in its own cell and the eight around it. Throws std::runtime_error
+   * if a grain's position is not finite.
    */
   ContactCandidates find_candidates(const GrainArrays &grains, const WallGeometry &walls, double skin);
 } // namespace alluvium::grains

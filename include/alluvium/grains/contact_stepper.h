@@ -27,6 +27,8 @@ namespace alluvium::grains
     bool         rotation            = true;
     double       residual_tolerance  = 1e-5;
     double       violation_tolerance = 1e-3;
+    double       loose               = 10.; // both times this ...
+    unsigned int patience            = 100; // ... after so many sweeps
     unsigned int max_sweeps          = 3000;
     unsigned int max_halvings        = 4;
     double       max_move            = 0.25; // of the smallest diameter, in one sub-step
@@ -44,14 +46,14 @@ namespace alluvium::grains
     unsigned int       n_contacts    = 0; // that carried an impulse in the last sub-step
     unsigned int       n_substeps    = 0;
     unsigned int       n_halvings    = 0; // sub-steps taken as two halves: no convergence, or grains moved too far
-    unsigned int       n_loose       = 0; // solves that ran out of sweeps between one and ten times the tolerance
+    unsigned int       n_loose       = 0; // solves that ended at the loose tolerance
     unsigned int       n_unconverged = 0; // sub-steps accepted above the tolerance, because halving did not help
     unsigned long long n_sweeps      = 0;
     unsigned long long n_updates     = 0; // contacts relaxed, over all sweeps
 
-    double residual = 0., violation = 0.;              // the largest of all sub-steps; see ContactTolerance
+    double residual = 0., violation = 0.;               // the largest of all sub-steps; see ContactTolerance
     double max_penetration = 0., mean_penetration = 0.; // over the overlapping contacts at the end [m]
-    double max_velocity = 0.;                          // of any grain at the end [m/s]
+    double max_velocity = 0.;                           // of any grain at the end [m/s]
   };
 
   /** The contact impulses of the last sub-step: what makes the next one start warm. Part of a checkpoint. */
@@ -74,11 +76,11 @@ namespace alluvium::grains
    *
    *   m_e = m + h G        v_free = (m v + h f) / m_e        v = v_free + P / m_e        x += h v
    *
-   * where the contact impulses P obey v_n + gap / h >= 0, Coulomb friction and Newton's restitution at the velocity level. A grain's
-   * spin answers to its true inertia m r^2 / 2. A grain of infinite mass keeps its velocity.
+   * where the contact impulses P obey v_n + gap / h >= 0, Coulomb friction and Newton's restitution at the velocity
+   * level. A grain's spin answers to its true inertia m r^2 / 2. A grain of infinite mass keeps its velocity.
    *
-   * Runs on replicated arrays and communicates nothing: the same input gives the same bits. The result depends on the grains and
-   * on the archived impulses, not on when the last contact search was.
+   * Runs on replicated arrays and communicates nothing: the same input gives the same bits. The result depends on the
+   * grains and on the archived impulses, not on when the last contact search was.
    */
   class ContactStepper
   {
@@ -95,9 +97,9 @@ namespace alluvium::grains
     const std::vector<WallSegment> &walls() const; // where they are now, if they move
 
     /**
-     * Advance positions, velocities and spins of @p grains by @p dt [s] under @p loads and contacts, and set their mean contact
-     * force. @p gravity [m/s^2] only sets scales (it is part of the loads); without it the largest velocity does.
-     * Throws std::runtime_error if a position or a velocity is not finite.
+     * Advance positions, velocities and spins of @p grains by @p dt [s] under @p loads and contacts, and set their mean
+     * contact force. @p gravity [m/s^2] only sets scales (it is part of the loads); without it the largest velocity
+     * does. Throws std::runtime_error if a position or a velocity is not finite.
      */
     ContactReport advance(GrainArrays &grains, const GrainLoads &loads, double dt, std::array<double, 2> gravity);
 

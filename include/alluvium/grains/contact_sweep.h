@@ -47,8 +47,8 @@ namespace alluvium::grains
   }
 
   /**
-   * One Gauss-Seidel sweep, forward or backward. With momentum, an impulse is first moved on by @p beta times its last change;
-   * the caller has done the same to the velocities.
+   * One Gauss-Seidel sweep, forward or backward. With momentum, an impulse is first moved on by @p beta times its last
+   * change; the caller has done the same to the velocities.
    */
   template <bool forward, bool momentum>
   SweepSums sweep(ContactProblem &problem, const double beta = 0.)

@@ -23,16 +23,16 @@ namespace alluvium::grains
   /** What a deposit may know of the scene. */
   struct DepositContext
   {
-    std::array<double, 2>    lower, upper;  // bounding box of the domain [m]
+    std::array<double, 2>    lower, upper; // bounding box of the domain [m]
     std::vector<WallSegment> walls;
-    double                   density;       // default grain density [kg/m^3]
-    std::array<double, 2>    gravity;       // [m/s^2]
-    std::string              directory;     // of the parameter file: relative paths start here
+    double                   density;   // default grain density [kg/m^3]
+    std::array<double, 2>    gravity;   // [m/s^2]
+    std::string              directory; // of the parameter file: relative paths start here
   };
 
   /**
-   * Interface of the plug-ins that say where the grains are at t = 0. make() runs on one rank only; the result is sent to the
-   * others. It must be reproducible: the same parameters and seed give the same grains.
+   * Interface of the plug-ins that say where the grains are at t = 0. make() runs on one rank only; the result is sent
+   * to the others. It must be reproducible: the same parameters and seed give the same grains.
    */
   class Deposit
   {

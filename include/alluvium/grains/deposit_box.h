@@ -1,0 +1,25 @@
+#pragma once
+
+#include <alluvium/grains/deposit.h>
+
+#include <array>
+#include <string>
+
+namespace alluvium::grains
+{
+  /** A rectangle that a deposit fills [m]. */
+  struct DepositBox
+  {
+    std::array<double, 2> lower, upper;
+
+    double width() const { return upper[0] - lower[0]; }
+    double height() const { return upper[1] - lower[1]; }
+  };
+
+  /** The text of the parameters named 'Box'. */
+  constexpr const char *deposit_box_prose =
+    "The rectangle to fill: xmin, ymin, xmax, ymax [m]. Empty: the bounding box of the domain.";
+
+  /** The rectangle that @p text (four numbers, or empty for the domain of @p context) stands for. Throws UserError. */
+  DepositBox parse_deposit_box(const std::string &text, const DepositContext &context);
+} // namespace alluvium::grains

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <alluvium/grains/deposit.h>
+#include <alluvium/grains/deposit_box.h>
+#include <alluvium/grains/random_numbers.h>
+
+#include <vector>
+
+namespace alluvium::grains
+{
+  /**
+   * Pours discs into a box one by one: each falls at a random place and rolls down over the others until it lies on two
+   * supports (Visscher & Bolsterli, Nature 239, 1972). The best of a few throws, the lowest, is kept, so that the
+   * surface grows level. A bed made so is at rest if nothing lay on top of its discs; friction and dynamics have to do
+   * the rest.
+   */
+  class Pour
+  {
+  public:
+    Pour(const DepositBox &box, double largest_radius);
+
+    /** Drop one disc and keep it; returns its place. */
+    std::array<double, 2> add(double radius, RandomNumbers &random);
+
+  private:
+    struct Disc
+    {
+      double x, y, r;
+    };
+    DepositBox                    box;
+    double                        cell;
+    int                           n_columns;
+    std::vector<std::vector<int>> cells; // discs by cell, row by row upwards; grows with the bed
+    std::vector<Disc>             discs;
+
+    std::array<double, 2> roll(double x, double radius) const;
+    /** The disc that a falling one lands on, -1 for the floor; @p y is where it starts, and then where it lands. */
+    int land(double x, double &y, double radius, int except) const;
+    template <class Visit>
+    void visit_near(double x, double y, double reach, const Visit &visit) const;
+  };
+} // namespace alluvium::grains

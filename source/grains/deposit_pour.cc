@@ -1,0 +1,152 @@
+#include <alluvium/grains/deposit_pour.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace alluvium::grains
+{
+  Pour::Pour(const DepositBox &box, const double largest_radius)
+    : box(box)
+    , cell(2. * largest_radius)
+    , n_columns(static_cast<int>(box.width() / cell) + 1)
+  {}
+
+  template <class Visit>
+  void Pour::visit_near(const double x, const double y, const double reach, const Visit &visit) const
+  {
+    const int n_rows = static_cast<int>(cells.size()) / n_columns;
+    const int c0     = std::max(0, static_cast<int>((x - reach - box.lower[0]) / cell));
+    const int c1     = std::min(n_columns - 1, static_cast<int>((x + reach - box.lower[0]) / cell));
+    const int r0     = std::max(0, static_cast<int>((y - reach - box.lower[1]) / cell));
+    const int r1     = std::min(n_rows - 1, static_cast<int>((y + reach - box.lower[1]) / cell));
+    for (int row = r0; row <= r1; ++row)
+      for (int column = c0; column <= c1; ++column)
+        for (const int k : cells[static_cast<std::size_t>(row) * n_columns + column])
+          visit(k);
+  }
+
+  int Pour::land(const double x, double &y, const double radius, const int except) const
+  {
+    int       support = -1;
+    double    best    = box.lower[1] + radius;
+    const int n_rows  = static_cast<int>(cells.size()) / n_columns;
+    const int c0      = std::max(0, static_cast<int>((x - cell - box.lower[0]) / cell));
+    const int c1      = std::min(n_columns - 1, static_cast<int>((x + cell - box.lower[0]) / cell));
+    const int start =
+      std::isfinite(y) ? std::min(n_rows - 1, static_cast<int>((y - box.lower[1]) / cell) + 1) : n_rows - 1;
+    const double ceiling = y * (1. + 1e-12);
+    // Downwards, until no disc of a lower row can reach what has been found.
+    for (int row = start; row >= 0 && box.lower[1] + (row + 2) * cell > best; --row)
+      for (int column = c0; column <= c1; ++column)
+        for (const int k : cells[static_cast<std::size_t>(row) * n_columns + column])
+          {
+            const Disc  &d     = discs[k];
+            const double reach = radius + d.r, dx = x - d.x;
+            if (k == except || std::abs(dx) >= reach * (1. - 1e-12))
+              continue;
+            const double top = d.y + std::sqrt(reach * reach - dx * dx);
+            if (top > best && top <= ceiling)
+              {
+                best    = top;
+                support = k;
+              }
+          }
+    y = best;
+    return support;
+  }
+
+  std::array<double, 2> Pour::roll(double x, const double r) const
+  {
+    double y        = std::numeric_limits<double>::infinity();
+    int    support  = land(x, y, r, -1);
+    int    previous = -1;
+    for (unsigned int move = 0; support >= 0 && move < 1000; ++move)
+      {
+        const Disc  &c     = discs[support];
+        const double reach = c.r + r, side = x >= c.x ? 1. : -1.;
+        // Roll around the support. Angles are from the vertical, positive on our side; the first event ends the roll.
+        const double now = std::atan2(side * (x - c.x), y - c.y);
+        enum class Event
+        {
+          falls,
+          wall,
+          floor,
+          disc
+        } event      = Event::falls;
+        double angle = 0.5 * M_PI;
+        int    next  = -1;
+
+        const double wall    = side > 0. ? box.upper[0] - r : box.lower[0] + r;
+        const double to_wall = std::max(0., side * (wall - c.x));
+        if (to_wall < reach && std::asin(to_wall / reach) <= angle)
+          {
+            angle = std::asin(to_wall / reach);
+            event = Event::wall;
+          }
+        const double to_floor = box.lower[1] + r - c.y;
+        if (to_floor > 0. && to_floor < reach && std::acos(to_floor / reach) < angle)
+          {
+            angle = std::acos(to_floor / reach);
+            event = Event::floor;
+          }
+        visit_near(c.x, c.y, 2. * cell, [&](const int k) {
+          if (k == support)
+            return;
+          const Disc  &e  = discs[k];
+          const double dx = e.x - c.x, dy = e.y - c.y, d2 = dx * dx + dy * dy, d = std::sqrt(d2), other = e.r + r;
+          if (d >= reach + other)
+            return;
+          const double along  = 0.5 * (d2 + reach * reach - other * other) / d;
+          const double across = std::sqrt(std::max(0., reach * reach - along * along));
+          for (const double s : {-1., 1.})
+            {
+              const double px = (along * dx - s * across * dy) / d, py = (along * dy + s * across * dx) / d;
+              const double a = std::atan2(side * px, py);
+              // The support just left touches at the place where this roll begins.
+              if (a > now + (k == previous ? 1e-9 : -1e-9) && a < angle)
+                {
+                  angle = a;
+                  event = Event::disc;
+                  next  = k;
+                }
+            }
+        });
+
+        angle = std::max(angle, now);
+        x     = c.x + side * reach * std::sin(angle);
+        y     = c.y + reach * std::cos(angle);
+        if (event == Event::wall || event == Event::floor)
+          break;
+        if (event == Event::falls)
+          {
+            previous = -1;
+            support  = land(x, y, r, support);
+            continue;
+          }
+        if (side * (discs[next].x - x) > 0.) // it rests between its two supports
+          break;
+        previous = support;
+        support  = next;
+      }
+    return {{x, y}};
+  }
+
+  std::array<double, 2> Pour::add(const double radius, RandomNumbers &random)
+  {
+    std::array<double, 2> best{{0., std::numeric_limits<double>::infinity()}};
+    for (unsigned int attempt = 0; attempt < 3; ++attempt)
+      {
+        const auto place = roll(random.uniform(box.lower[0] + radius, box.upper[0] - radius), radius);
+        if (place[1] < best[1])
+          best = place;
+      }
+    const int column = std::clamp(static_cast<int>((best[0] - box.lower[0]) / cell), 0, n_columns - 1);
+    const int row    = std::max(0, static_cast<int>((best[1] - box.lower[1]) / cell));
+    if (cells.size() < static_cast<std::size_t>(row + 1) * n_columns)
+      cells.resize(static_cast<std::size_t>(row + 1) * n_columns);
+    cells[static_cast<std::size_t>(row) * n_columns + column].push_back(static_cast<int>(discs.size()));
+    discs.push_back({best[0], best[1], radius});
+    return best;
+  }
+} // namespace alluvium::grains

@@ -1,0 +1,215 @@
+#include <alluvium/grains/contact_stepper.h>
+#include <alluvium/grains/deposit_pour.h>
+#include <alluvium/grains/deposit_table.h>
+#include <alluvium/grains/random_numbers.h>
+#include <alluvium/utilities/plugin.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+namespace alluvium::grains
+{
+  namespace
+  {
+    /** FNV-1a: short, and the same everywhere. */
+    std::string hash(const std::string &text)
+    {
+      std::uint64_t h = 14695981039346656037ull;
+      for (const unsigned char c : text)
+        h = (h ^ c) * 1099511628211ull;
+      char digits[17];
+      std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(h));
+      return digits;
+    }
+
+    std::string exact(const double value)
+    {
+      char text[32];
+      std::snprintf(text, sizeof text, "%a", value);
+      return text;
+    }
+  } // namespace
+
+  /**
+   * A random bed at rest on the floor of the domain's bounding box: poured geometrically, then let go under gravity
+   * with the contact solver until it stands still and the walls carry its weight. Made once and kept in the cache
+   * folder.
+   */
+  class SettledBed : public Deposit
+  {
+  public:
+    void add_parameters(dealii::ParameterHandler &prm) override
+    {
+      using namespace dealii::Patterns;
+      prm.add_parameter("Number of grains", n_wanted, "How many. 0: as many as 'Bed height' takes.", Integer(0));
+      prm.add_parameter(
+        "Bed height",
+        height,
+        "Height of the bed [m], used if the number of grains is 0: grains whose top is above it are taken away.",
+        Double(0.));
+      prm.add_parameter("Smallest diameter", d_min, "[m]", Double(0.));
+      prm.add_parameter(
+        "Size ratio", ratio, "Largest over smallest diameter [-]; diameters are uniform in between.", Double(1.));
+      prm.add_parameter("Seed", seed, "Of the random numbers: another seed gives another bed.", Integer(0));
+      prm.add_parameter(
+        "Friction while settling",
+        friction,
+        "Coulomb friction between grains and with the walls while the bed is made [-]. Less makes it denser.",
+        Double(0.));
+      prm.add_parameter(
+        "Cache folder",
+        cache,
+        "Where settled beds are kept, relative to the parameter file, under a name that depends on everything "
+        "that made them. Empty: settle anew every time.");
+    }
+
+    std::vector<Seed> make(const DepositContext &context) const override
+    {
+      check_user(d_min > 0., "The deposit 'settled bed' needs a positive 'Smallest diameter'.");
+      check_user(n_wanted > 0 || height > 0.,
+                 "The deposit 'settled bed' has no grains: set its 'Number of grains' or 'Bed height'.");
+      check_user(context.upper[0] - context.lower[0] > 2. * d_min * ratio,
+                 "The deposit 'settled bed': the domain is narrower than two grains.");
+
+      // The bed settles straight down whatever way the scene is tilted.
+      const double g_scene = std::hypot(context.gravity[0], context.gravity[1]), g = g_scene > 0. ? g_scene : 9.81;
+      std::string  recipe = "settled bed, version 1\n";
+      for (const auto &[name, value] : {std::make_pair("x0", context.lower[0]),
+                                        std::make_pair("y0", context.lower[1]),
+                                        std::make_pair("x1", context.upper[0]),
+                                        std::make_pair("number", double(n_wanted)),
+                                        std::make_pair("height", n_wanted > 0 ? 0. : height),
+                                        std::make_pair("d_min", d_min),
+                                        std::make_pair("ratio", ratio),
+                                        std::make_pair("seed", double(seed)),
+                                        std::make_pair("friction", friction),
+                                        std::make_pair("density", context.density),
+                                        std::make_pair("gravity", g)})
+        recipe += std::string(name) + " = " + exact(value) + "\n";
+
+      if (cache.empty())
+        return checked(settle(context, g), context);
+      const std::string folder = path_from(context.directory, cache),
+                        file   = folder + "/settled_bed_" + hash(recipe) + ".csv";
+      if (std::filesystem::exists(file))
+        return checked(read_grain_table(file, context.density), context);
+      std::error_code error;
+      std::filesystem::create_directories(folder, error);
+      check_user(!error, "Cannot make the cache folder '" + folder + "': " + error.message() + ".");
+      const std::vector<Seed> seeds = settle(context, g);
+      write_grain_table(file, seeds, recipe);
+      return checked(seeds, context);
+    }
+
+  private:
+    unsigned int n_wanted = 2000, seed = 1;
+    double       height = 0., d_min = 2e-4, ratio = 1.2, friction = 0.4;
+    std::string  cache = "deposits";
+
+    static std::vector<Seed> checked(std::vector<Seed> seeds, const DepositContext &context)
+    {
+      double top = context.lower[1];
+      for (const Seed &s : seeds)
+        top = std::max(top, s.y + s.radius);
+      check_user(top <= context.upper[1],
+                 "The deposit 'settled bed' is " + std::to_string(top - context.lower[1]) +
+                   " m high, the domain only " + std::to_string(context.upper[1] - context.lower[1]) + " m.");
+      return seeds;
+    }
+
+    std::vector<Seed> settle(const DepositContext &context, const double g) const
+    {
+      RandomNumbers     random(seed);
+      const DepositBox  box{context.lower, context.upper};
+      Pour              pour(box, 0.5 * d_min * ratio);
+      std::vector<Seed> seeds;
+      double            area = 0.;
+      // By height: as many as a bed of packing 0.84 would have, and two layers more.
+      const double enough = 0.84 * box.width() * (height + 2. * d_min * ratio);
+      while (n_wanted > 0 ? seeds.size() < n_wanted : area < enough)
+        {
+          const double r = 0.5 * d_min * random.uniform(1., ratio);
+          const auto   p = pour.add(r, random);
+          seeds.push_back({p[0], p[1], r, context.density});
+          area += M_PI * r * r;
+        }
+      bring_to_rest(seeds, box, g);
+      if (n_wanted == 0)
+        {
+          const double top = box.lower[1] + height;
+          seeds.erase(std::remove_if(seeds.begin(), seeds.end(), [top](const Seed &s) { return s.y + s.radius > top; }),
+                      seeds.end());
+          check_user(!seeds.empty(), "The deposit 'settled bed' has no grains: its 'Bed height' is less than one.");
+          bring_to_rest(seeds, box, g);
+        }
+      return seeds;
+    }
+
+    void bring_to_rest(std::vector<Seed> &seeds, const DepositBox &box, const double g) const
+    {
+      // Neighbours in space become neighbours in memory: rows of about one diameter, from left to right.
+      const double row = d_min * ratio;
+      std::sort(seeds.begin(), seeds.end(), [&](const Seed &a, const Seed &b) {
+        const double ra = std::floor((a.y - box.lower[1]) / row), rb = std::floor((b.y - box.lower[1]) / row);
+        return ra != rb ? ra < rb : a.x != b.x ? a.x < b.x : a.y < b.y;
+      });
+
+      GrainArrays       grains;
+      const std::size_t n = seeds.size();
+      grains.resize(n);
+      double weight = 0.;
+      for (std::size_t k = 0; k < n; ++k)
+        {
+          grains.id[k]     = static_cast<GrainId>(k);
+          grains.x[k]      = seeds[k].x;
+          grains.y[k]      = seeds[k].y;
+          grains.radius[k] = seeds[k].radius;
+          grains.mass[k]   = seeds[k].density * M_PI * seeds[k].radius * seeds[k].radius;
+          weight += grains.mass[k] * g;
+        }
+      const double   far = box.upper[1] + 1e3 * (box.width() + box.height());
+      ContactStepper stepper;
+      stepper.set_walls({{box.lower, {{box.upper[0], box.lower[1]}}, {{0., 0.}}, "floor"},
+                         {{{box.lower[0], far}}, box.lower, {{0., 0.}}, "left"},
+                         {{{box.upper[0], box.lower[1]}}, {{box.upper[0], far}}, {{0., 0.}}, "right"}});
+      stepper.settings().friction = stepper.settings().wall_friction = friction;
+
+      // At first slowly, in a thick fluid, so that grains creep into place instead of bouncing about; then without it.
+      const double dt = 0.2 * std::sqrt(d_min / g);
+      GrainLoads   loads;
+      loads.reset(n);
+      for (std::size_t k = 0; k < n; ++k)
+        loads.fy[k] = -grains.mass[k] * g;
+      constexpr int n_steps = 4000;
+      int           quiet = 0, step = 0;
+      bool          thick = true;
+      for (; step < n_steps && quiet < 10; ++step)
+        {
+          for (std::size_t k = 0; k < n; ++k)
+            loads.drag[k] = thick ? grains.mass[k] / (2. * dt) : 0.;
+          stepper.settings().residual_tolerance = thick ? 1e-5 : 1e-6;
+          const ContactReport report            = stepper.advance(grains, loads, dt, {{0., -g}});
+          double              support = 0., energy = 0.;
+          for (const auto &[name, force] : report.wall_force)
+            support -= force[1] / weight;
+          for (std::size_t k = 0; k < n; ++k)
+            energy += grains.mass[k] * (grains.vx[k] * grains.vx[k] + grains.vy[k] * grains.vy[k]);
+          const double speed = std::sqrt(energy * g / weight) / (g * dt);
+          if (thick)
+            thick = step < 200 && !(speed < 1e-2 && std::abs(support - 1.) < 1e-2);
+          else
+            quiet = speed < 1e-3 && std::abs(support - 1.) < 1e-4 ? quiet + 1 : 0;
+        }
+      check_user(quiet > 0, "The deposit 'settled bed' did not come to rest: try another seed or more friction.");
+      for (std::size_t k = 0; k < n; ++k)
+        {
+          seeds[k].x = grains.x[k];
+          seeds[k].y = grains.y[k];
+        }
+    }
+  };
+
+  ALLUVIUM_REGISTER(Deposit, SettledBed, "settled bed", "a random bed at rest on the floor of the domain.")
+} // namespace alluvium::grains
