@@ -4,6 +4,8 @@
 
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace dealii
 {
@@ -21,6 +23,9 @@ namespace alluvium
   public:
     explicit Simulation(MPI_Comm communicator);
     ~Simulation();
+
+    /** What `Method = paper` changes: (parameter, value). */
+    static std::vector<std::pair<std::string, std::string>> paper_method();
 
     /** Declare every parameter of the program in @p prm and bind it to the object that uses it. */
     void add_parameters(dealii::ParameterHandler &prm);

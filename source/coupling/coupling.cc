@@ -201,6 +201,19 @@ namespace alluvium::coupling
 
 
 
+  void Coupling::add_grain_response(const grains::GrainArrays &grains, const grains::GrainLoads &loads)
+  {
+    std::array<double, 2> sum{};
+    for (std::size_t g = 0; g < grains.n(); ++g)
+      {
+        sum[0] += loads.drag[g] * (grains.vx[g] - predicted[g][0]);
+        sum[1] += loads.drag[g] * (grains.vy[g] - predicted[g][1]);
+      }
+    last.momentum_not_received = std::hypot(sum[0], sum[1]);
+  }
+
+
+
   void Coupling::audit()
   {
     last.force_on_fluid = solver->interphase_force();

@@ -51,11 +51,11 @@ namespace alluvium::fluid
 
 
   template <int dim>
-  FluidSpace<dim>::FluidSpace(const Triangulation<dim> &triangulation)
-    : tria(&triangulation)
-    , dofs(triangulation)
-    , nodal_dofs(triangulation)
+  void FluidSpace<dim>::attach(const Triangulation<dim> &triangulation)
   {
+    tria = &triangulation;
+    dofs.reinit(triangulation);
+    nodal_dofs.reinit(triangulation);
     if (is_simplex_mesh(triangulation))
       {
         scalar_fe = std::make_unique<FE_SimplexP<dim>>(1);

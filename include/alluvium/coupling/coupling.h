@@ -14,6 +14,7 @@ namespace alluvium::coupling
     std::array<double, 2> force_on_grains = {{0., 0.}};      // what the fluid gave the grains, weight of displaced fluid aside [N/m]
     std::array<double, 2> force_on_fluid  = {{0., 0.}};      // what the fluid's equations received [N/m]; only from audit()
     double                force_scale = 0.;                  // sum of |force| over the grains [N/m]
+    double                momentum_not_received = 0.;        // |sum of G (v^{n+1} - v*)|: see add_grain_response() [N/m]
     std::size_t           n_pieces = 0;
     unsigned int          n_iterations = 0;                  // linear, over all sweeps
   };
@@ -49,6 +50,11 @@ namespace alluvium::coupling
               const double                          dt,
               const bool                            fixed,
               grains::GrainLoads                   &loads);
+
+    /**
+     * Tell what the grains made of the loads: where their drag was implicit, they got G (v^{n+1} - v*) that the fluid did not see.
+     */
+    void add_grain_response(const grains::GrainArrays &grains, const grains::GrainLoads &loads);
 
     /** Complete the report with the sums that cost an assembly. */
     void audit();

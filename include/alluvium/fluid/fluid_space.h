@@ -44,8 +44,13 @@ namespace alluvium::fluid
   class FluidSpace
   {
   public:
-    explicit FluidSpace(const dealii::Triangulation<dim> &triangulation);
+    FluidSpace() = default;
+    explicit FluidSpace(const dealii::Triangulation<dim> &triangulation) { attach(triangulation); }
 
+    /** Live on @p triangulation, which must outlive this. Throws UserError for mixed cell types. */
+    void attach(const dealii::Triangulation<dim> &triangulation);
+
+    /** Number the dofs anew; call after the mesh or the kinds of boundary conditions changed. */
     void reinit(const BoundaryConditions<dim> &boundary_conditions);
 
     const std::vector<CellData<dim>> &cells() const { return cell_data; }
@@ -112,7 +117,7 @@ namespace alluvium::fluid
     void make_constraints(const BoundaryConditions<dim> &boundary_conditions);
     void cache_cells();
 
-    const dealii::Triangulation<dim>                      *tria;
+    const dealii::Triangulation<dim>                      *tria = nullptr;
     std::unique_ptr<dealii::Mapping<dim>>                  map;
     std::unique_ptr<dealii::FiniteElement<dim>>            scalar_fe, system_fe;
     dealii::DoFHandler<dim>                                dofs, nodal_dofs;

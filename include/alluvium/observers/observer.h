@@ -1,0 +1,70 @@
+#pragma once
+
+#include <alluvium/coupling/coupling.h>
+#include <alluvium/grains/contact_stepper.h>
+#include <alluvium/mesh/bed_faces.h>
+#include <alluvium/observers/statistics.h>
+#include <alluvium/observers/summary.h>
+#include <alluvium/utilities/plugin.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace alluvium::observers
+{
+  /** The fluid's side of a run, for those that look at it. */
+  struct FluidView
+  {
+    const fluid::FluidSpace<2>         &space;
+    const fluid::VansSolver<2>         &solver;
+    const fluid::BoundaryConditions<2> &boundary_conditions;
+    coupling::Coupling                 &coupling;
+
+    double head = 0.; // differential head between the bottom and the top that the bed had at t = 0 (16) [m]
+  };
+
+  /** What an observer sees after a step. The same on all ranks, apart from the fluid's distributed fields. */
+  struct Snapshot
+  {
+    double                       time, dt; // [s]
+    unsigned int                 step;
+    const grains::GrainArrays   &grains;
+    const mesh::BedFaces        &initial_bed;
+    double                       left, right; // of the domain [m]
+    std::array<double, 2>        gravity;     // [m/s^2]
+    const grains::ContactReport *contacts;    // null where grains do not move, and at t = 0
+    const FluidView             *fluid;       // null in dry scenes
+    MPI_Comm                     communicator;
+  };
+
+  /**
+   * Interface of the plug-ins that measure. They may look at everything and change nothing; what they find goes into the
+   * columns of statistics.csv and into summary.json.
+   */
+  class Observer
+  {
+  public:
+    virtual ~Observer() = default;
+    virtual void add_parameters(dealii::ParameterHandler &) {}
+
+    /** Whether there is anything to measure in this scene; the others are never called again. */
+    virtual bool applies(const Snapshot &) const { return true; }
+
+    virtual void add_columns(const Snapshot &, Statistics &) {}
+
+    /** Called after every step, and once before the first; collective. */
+    virtual void observe(const Snapshot &) {}
+
+    /** Fill this observer's columns of a row; after observe(), collective. */
+    virtual void write(const Snapshot &, Statistics &) {}
+
+    /** What the user came for. */
+    virtual void conclude(Summary &) const {}
+
+    /** What a restarted run must remember. */
+    virtual void save(nlohmann::ordered_json &) const {}
+    virtual void load(const nlohmann::ordered_json &) {}
+  };
+} // namespace alluvium::observers
+
+/** Register an observer under the name that parameter files use. */
+#define ALLUVIUM_REGISTER_OBSERVER(Class, name, prose) ALLUVIUM_REGISTER(::alluvium::observers::Observer, Class, name, prose)

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <alluvium/grains/deposit.h>
+#include <alluvium/grains/grain_arrays.h>
+#include <alluvium/mesh/domain.h>
+#include <alluvium/utilities/plugin.h>
+
+#include <mpi.h>
+
+namespace alluvium::scene
+{
+  /** Section "Grains" of the parameter file: where they are at t = 0, what they weigh, and what the fluid sees of them. */
+  class GrainSetup
+  {
+  public:
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /** Walls of the domain plus the extra ones. Throws UserError for a wall that cannot be read. */
+    std::vector<grains::WallSegment> walls(const mesh::Domain<2> &domain) const;
+
+    /**
+     * Make the deposit (on one rank) and check it: every grain inside the domain, no overlap beyond the tolerance. Throws
+     * UserError. Collective.
+     */
+    grains::GrainArrays make(MPI_Comm                                communicator,
+                             const mesh::Domain<2>                  &domain,
+                             const std::vector<grains::WallSegment> &walls,
+                             const std::array<double, 2>            &gravity,
+                             const std::string                      &directory) const;
+
+    bool fixed() const { return fixed_grains; }
+    /** Fluid radius over contact radius of the grains made last. */
+    double radius_factor() const { return last_factor; }
+
+  private:
+    double find_radius_factor(const grains::GrainArrays &grains, const mesh::Domain<2> &domain) const;
+
+    PluginChoice<grains::Deposit> deposit;
+    double                        density = 2650., factor = 1., packing = 0., overlap_tolerance = 0.01;
+    std::string                   mass_follows = "contact radius", extra_walls;
+    bool                          fixed_grains = false;
+    mutable double                last_factor  = 1.;
+  };
+} // namespace alluvium::scene

@@ -1,0 +1,86 @@
+#include <alluvium/fluid/line_average.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <limits>
+
+namespace alluvium::fluid
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Where edge a-b crosses height y, as the weight of b; false if it does not or is level. */
+    template <int dim>
+    bool crossing(const Point<dim> &a, const Point<dim> &b, const double y, double &weight)
+    {
+      if ((a[1] <= y) == (b[1] <= y))
+        return false;
+      weight = (y - a[1]) / (b[1] - a[1]);
+      return true;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  double line_average(const FluidSpace<dim>                                                         &space,
+                      const BlockVector                                                             &solution,
+                      const double                                                                   y_wanted,
+                      const std::function<double(const std::array<double, dim> &u, const double p)> &function)
+  {
+    const unsigned int n = space.n_nodes_per_cell();
+    double             top = -std::numeric_limits<double>::infinity(), bottom = -top;
+    for (const auto &cell : space.cells())
+      for (unsigned int v = 0; v < n; ++v)
+        {
+          top    = std::max(top, cell.vertex[v][1]);
+          bottom = std::min(bottom, cell.vertex[v][1]);
+        }
+    top    = Utilities::MPI::max(top, space.communicator());
+    bottom = Utilities::MPI::min(bottom, space.communicator());
+    // a hair inside, so that the boundary's own lines belong to a cell
+    const double y = std::min(std::max(y_wanted, bottom + 1e-9 * (top - bottom)), top - 1e-9 * (top - bottom));
+
+    const std::array<std::pair<unsigned int, unsigned int>, 4> quad = {{{0, 1}, {1, 3}, {3, 2}, {2, 0}}};
+    const std::array<std::pair<unsigned int, unsigned int>, 4> tri  = {{{0, 1}, {1, 2}, {2, 0}, {0, 0}}};
+    double                                                     sum[2] = {0., 0.};
+    for (const auto &cell : space.cells())
+      {
+        // the line enters and leaves a convex cell through two edges; fields are linear along them
+        std::array<double, dim> u{};
+        double                  p = 0., x[2] = {0., 0.};
+        unsigned int            n_crossings = 0;
+        for (unsigned int e = 0; e < (n == 4 ? 4 : 3); ++e)
+          {
+            const auto [a, b] = n == 4 ? quad[e] : tri[e];
+            double weight;
+            if (n_crossings < 2 && crossing(cell.vertex[a], cell.vertex[b], y, weight))
+              {
+                x[n_crossings++] = cell.vertex[a][0] + weight * (cell.vertex[b][0] - cell.vertex[a][0]);
+                for (const auto &[v, w] : {std::make_pair(a, 1. - weight), std::make_pair(b, weight)})
+                  {
+                    p += 0.5 * w * solution.block(1).local_element(cell.pressure[v]);
+                    for (unsigned int d = 0; d < dim; ++d)
+                      u[d] += 0.5 * w * solution.block(0).local_element(cell.velocity[v][d]);
+                  }
+              }
+          }
+        if (n_crossings == 2)
+          {
+            const double width = std::abs(x[1] - x[0]);
+            sum[0] += width * function(u, p);
+            sum[1] += width;
+          }
+      }
+    Utilities::MPI::sum(ArrayView<const double>(sum, 2), space.communicator(), ArrayView<double>(sum, 2));
+    return sum[0] / sum[1];
+  }
+
+
+
+  template double line_average<2>(const FluidSpace<2> &,
+                                  const BlockVector &,
+                                  const double,
+                                  const std::function<double(const std::array<double, 2> &, const double)> &);
+} // namespace alluvium::fluid

@@ -1,0 +1,78 @@
+#include <alluvium/observers/observer.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace alluvium::observers
+{
+  namespace
+  {
+    /** The books: what should be zero, scaled by what it is made of. */
+    class Audit : public Observer
+    {
+    public:
+      bool applies(const Snapshot &s) const override { return s.fluid || s.contacts || s.step == 0; }
+
+      void add_columns(const Snapshot &s, Statistics &statistics) override
+      {
+        if (s.fluid)
+          for (const auto *name :
+               {"third_law_defect", "clipped_solid_volume_m2", "prediction_defect_mean_m_per_s", "prediction_defect_max_m_per_s",
+                "momentum_not_received_over_force", "fluid_residual"})
+            statistics.add_column(name);
+        statistics.add_column("mean_penetration_over_d");
+        statistics.add_column("contact_residual");
+      }
+
+      void write(const Snapshot &s, Statistics &statistics) override
+      {
+        if (s.step == 0)
+          return;
+        if (s.fluid)
+          {
+            s.fluid->coupling.audit();
+            const auto &report = s.fluid->coupling.report();
+            const auto &v_star = s.fluid->coupling.predicted_velocity();
+            double      mean = 0., largest = 0., defect = 0.;
+            for (std::size_t i = 0; i < s.grains.n(); ++i)
+              {
+                const double d = std::hypot(s.grains.vx[i] - v_star[i][0], s.grains.vy[i] - v_star[i][1]);
+                mean += d / s.grains.n();
+                largest = std::max(largest, d);
+              }
+            for (unsigned int d = 0; d < 2; ++d)
+              defect = std::max(defect, std::abs(report.force_on_grains[d] + report.force_on_fluid[d]));
+            third_law = std::max(third_law, report.force_scale > 0. ? defect / report.force_scale : 0.);
+            statistics.set("third_law_defect", report.force_scale > 0. ? defect / report.force_scale : 0.);
+            statistics.set("clipped_solid_volume_m2", report.clipped_volume);
+            statistics.set("prediction_defect_mean_m_per_s", mean);
+            statistics.set("prediction_defect_max_m_per_s", largest);
+            statistics.set("momentum_not_received_over_force",
+                           report.force_scale > 0. ? report.momentum_not_received / report.force_scale : 0.);
+            statistics.set("fluid_residual", s.fluid->solver.last_report().residual);
+          }
+        if (s.contacts)
+          {
+            const double d = mesh::mean_diameter(s.grains);
+            statistics.set("mean_penetration_over_d", s.contacts->mean_penetration / d);
+            statistics.set("contact_residual", s.contacts->residual);
+            penetration = std::max(penetration, s.contacts->max_penetration / d);
+          }
+      }
+
+      void conclude(Summary &summary) const override
+      {
+        summary.set("audit/largest_third_law_defect", third_law);
+        summary.set("audit/largest_penetration_over_d", penetration);
+      }
+
+    private:
+      double third_law = 0., penetration = 0.;
+    };
+  } // namespace
+
+  ALLUVIUM_REGISTER_OBSERVER(Audit,
+                             "audit",
+                             "What should vanish: defect of the third law, clipped solid volume, prediction defect |v - v*|, drag "
+                             "momentum that the grains got and the fluid did not, residuals, penetration.")
+} // namespace alluvium::observers

@@ -1,0 +1,66 @@
+#include <alluvium/observers/observer.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace alluvium::observers
+{
+  namespace
+  {
+    class Bed : public Observer
+    {
+    public:
+      void add_columns(const Snapshot &s, Statistics &statistics) override
+      {
+        statistics.add_column("bed_height_m");
+        statistics.add_column("largest_grain_velocity_m_per_s");
+        statistics.add_column("kinetic_energy_J_per_m");
+        if (s.fluid)
+          {
+            statistics.add_column("largest_fluid_velocity_m_per_s");
+            statistics.add_column("smallest_void_fraction");
+            statistics.add_column("largest_void_fraction");
+          }
+      }
+
+      void write(const Snapshot &s, Statistics &statistics) override
+      {
+        const auto &g    = s.grains;
+        double      fastest = 0., energy = 0.;
+        for (std::size_t i = 0; i < g.n(); ++i)
+          {
+            const double v2 = g.vx[i] * g.vx[i] + g.vy[i] * g.vy[i];
+            fastest         = std::max(fastest, std::sqrt(v2));
+            energy += 0.5 * (g.mass[i] * v2 + grains::disc_inertia(g.mass[i], g.radius[i]) * g.omega[i] * g.omega[i]);
+          }
+        height = mean_height(mesh::find_bed_faces(g, s.left, s.right));
+        if (s.step == 0)
+          initial_height = height;
+        statistics.set("bed_height_m", height);
+        statistics.set("largest_grain_velocity_m_per_s", fastest);
+        statistics.set("kinetic_energy_J_per_m", energy);
+        if (s.fluid)
+          {
+            statistics.set("largest_fluid_velocity_m_per_s", s.fluid->solver.solution().block(0).linfty_norm());
+            statistics.set("smallest_void_fraction", s.fluid->coupling.report().eps_min);
+            statistics.set("largest_void_fraction", s.fluid->coupling.report().eps_max);
+          }
+      }
+
+      void conclude(Summary &summary) const override { summary.set("bed/final_height_m", height); }
+
+    private:
+      static double mean_height(const mesh::BedFaces &bed)
+      {
+        double sum = 0.;
+        for (const auto &column : bed.columns)
+          sum += column.top - column.bottom;
+        return bed.columns.empty() ? 0. : sum / bed.columns.size();
+      }
+
+      double height = 0., initial_height = 0.;
+    };
+  } // namespace
+
+  ALLUVIUM_REGISTER_OBSERVER(Bed, "bed", "Height of the bed, fastest grain, kinetic energy, fastest fluid, range of the void fraction.")
+} // namespace alluvium::observers

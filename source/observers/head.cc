@@ -1,0 +1,30 @@
+#include <alluvium/observers/observer.h>
+
+namespace alluvium::observers
+{
+  namespace
+  {
+    class Head : public Observer
+    {
+    public:
+      bool applies(const Snapshot &s) const override { return s.fluid != nullptr; }
+      void add_columns(const Snapshot &, Statistics &statistics) override { statistics.add_column("differential_head_m"); }
+      void observe(const Snapshot &s) override
+      {
+        last    = s.fluid->head;
+        largest = std::max(largest, last);
+      }
+      void write(const Snapshot &s, Statistics &statistics) override { statistics.set("differential_head_m", s.fluid->head); }
+      void conclude(Summary &summary) const override
+      {
+        summary.set("head/final_m", last);
+        summary.set("head/largest_m", largest);
+      }
+
+    private:
+      double last = 0., largest = 0.;
+    };
+  } // namespace
+
+  ALLUVIUM_REGISTER_OBSERVER(Head, "head", "Differential head between the bottom and the top of the bed as it was at t = 0.")
+} // namespace alluvium::observers

@@ -1,0 +1,184 @@
+#include <alluvium/mesh/bed_faces.h>
+#include <alluvium/scene/grain_setup.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/utilities.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace alluvium::scene
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::string number(const double x)
+    {
+      std::ostringstream out;
+      out << x;
+      return out.str();
+    }
+
+    /** Run @p make on one rank; its result, or its UserError, reaches all. */
+    template <typename Make>
+    auto on_first_rank(MPI_Comm communicator, const Make &make)
+    {
+      decltype(make()) result;
+      std::string      error;
+      if (Utilities::MPI::this_mpi_process(communicator) == 0)
+        try
+          {
+            result = make();
+          }
+        catch (const UserError &e)
+          {
+            error = e.what();
+          }
+      error = Utilities::MPI::broadcast(communicator, error);
+      check_user(error.empty(), error);
+      return result;
+    }
+  } // namespace
+
+
+
+  void GrainSetup::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Grains");
+    deposit.add_parameters(prm, "Deposit", "settled bed", "Where the grains are at t = 0.");
+    prm.add_parameter("Density", density, "Density of the grains [kg/m^3], where the deposit does not give it.", Patterns::Double(1e-3));
+    prm.add_parameter("Fluid radius factor",
+                      factor,
+                      "Radius of a grain that the fluid sees, over the radius that touches. Below 1 it makes room for the fluid: discs "
+                      "pack denser (0.82) than spheres (0.6).",
+                      Patterns::Double(1e-3, 1.));
+    prm.add_parameter("Fluid packing fraction",
+                      packing,
+                      "If above 0, choose the fluid radius factor such that the bed, as deposited, has this packing fraction for the "
+                      "fluid: the grains' area over domain width times mean bed height.",
+                      Patterns::Double(0., 0.9));
+    prm.add_parameter("Mass follows",
+                      mass_follows,
+                      "Which radius r gives a grain its mass pi r^2 density per unit depth.",
+                      Patterns::Selection("contact radius|fluid radius"));
+    prm.add_parameter("Fixed", fixed_grains, "Hold all grains where they are; the fluid flows through them.");
+    prm.add_parameter("Overlap tolerance",
+                      overlap_tolerance,
+                      "Largest overlap at t = 0, between grains or of a grain with a wall, as a part of the smaller diameter; more is an "
+                      "error.",
+                      Patterns::Double(0.));
+    prm.add_parameter("Extra walls",
+                      extra_walls,
+                      "Walls inside the domain that only the grains see, as `x1, y1 -> x2, y2; ...` [m].");
+    prm.leave_subsection();
+  }
+
+
+
+  std::vector<grains::WallSegment> GrainSetup::walls(const mesh::Domain<2> &domain) const
+  {
+    std::vector<grains::WallSegment> result = domain.walls();
+    unsigned int                     n      = 0;
+    for (const std::string &item : Utilities::split_string_list(extra_walls, ';'))
+      {
+        const auto                arrow = item.find("->");
+        std::vector<double>       x;
+        bool                      good = arrow != std::string::npos;
+        if (good)
+          for (const std::string &end : {item.substr(0, arrow), item.substr(arrow + 2)})
+            for (const std::string &c : Utilities::split_string_list(end, ','))
+              try
+                {
+                  std::size_t length = 0;
+                  x.push_back(std::stod(c, &length));
+                  good = good && length == c.size() && std::isfinite(x.back());
+                }
+              catch (const std::exception &)
+                {
+                  good = false;
+                }
+        check_user(good && x.size() == 4 && (x[0] != x[2] || x[1] != x[3]),
+                   "Grains/Extra walls: expected `x1, y1 -> x2, y2; ...` in metres, got '" + item + "'.");
+        result.push_back({{{x[0], x[1]}}, {{x[2], x[3]}}, {{0., 0.}}, "extra wall " + std::to_string(++n)});
+      }
+    return result;
+  }
+
+
+
+  grains::GrainArrays GrainSetup::make(MPI_Comm                                communicator,
+                                       const mesh::Domain<2>                  &domain,
+                                       const std::vector<grains::WallSegment> &walls,
+                                       const std::array<double, 2>            &gravity,
+                                       const std::string                      &directory) const
+  {
+    // one rank makes them, as plain numbers for all
+    constexpr unsigned int    n_numbers = 7;
+    const std::vector<double> numbers   = Utilities::MPI::broadcast(communicator, on_first_rank(communicator, [&] {
+      const std::vector<grains::Seed> seeds = deposit.get().make({{{domain.lower()[0], domain.lower()[1]}},
+                                                                    {{domain.upper()[0], domain.upper()[1]}},
+                                                                  walls,
+                                                                  density,
+                                                                  gravity,
+                                                                  directory});
+      std::vector<double>             flat;
+      for (const auto &s : seeds)
+        flat.insert(flat.end(), {s.x, s.y, s.radius, s.density, s.vx, s.vy, s.omega});
+      return flat;
+    }));
+
+    grains::GrainArrays grains;
+    const std::size_t   n = numbers.size() / n_numbers;
+    check_user(n > 0, "Grains: the deposit '" + deposit.name() + "' made no grains.");
+    grains.resize(n);
+    std::vector<double> densities(n);
+    for (std::size_t i = 0; i < n; ++i)
+      {
+        const double *s = &numbers[i * n_numbers];
+        grains.id[i]    = i;
+        grains.x[i] = grains.x0[i] = s[0];
+        grains.y[i] = grains.y0[i] = s[1];
+        grains.radius[i]           = s[2];
+        densities[i]               = s[3];
+        grains.vx[i]               = fixed_grains ? 0. : s[4];
+        grains.vy[i]               = fixed_grains ? 0. : s[5];
+        grains.omega[i]            = fixed_grains ? 0. : s[6];
+        for (unsigned int d = 0; d < 2; ++d)
+          check_user(s[d] >= domain.lower()[d] && s[d] <= domain.upper()[d],
+                     "Grains: grain " + std::to_string(i) + " at (" + number(s[0]) + ", " + number(s[1]) +
+                       ") m is outside the domain, which reaches from (" + number(domain.lower()[0]) + ", " +
+                       number(domain.lower()[1]) + ") to (" + number(domain.upper()[0]) + ", " + number(domain.upper()[1]) + ") m.");
+      }
+    last_factor = find_radius_factor(grains, domain);
+    for (std::size_t i = 0; i < n; ++i)
+      {
+        grains.fluid_radius[i] = last_factor * grains.radius[i];
+        const double r         = mass_follows == "fluid radius" ? grains.fluid_radius[i] : grains.radius[i];
+        grains.mass[i]         = densities[i] * numbers::PI * r * r;
+      }
+    return grains;
+  }
+
+
+
+  double GrainSetup::find_radius_factor(const grains::GrainArrays &grains, const mesh::Domain<2> &domain) const
+  {
+    if (packing == 0.)
+      return factor;
+    const auto bed  = mesh::find_bed_faces(grains, domain.lower()[0], domain.upper()[0]);
+    double     area = 0., height = 0.;
+    for (const double r : grains.radius)
+      area += dealii::numbers::PI * r * r;
+    for (const auto &column : bed.columns)
+      height += (column.top - column.bottom) / bed.columns.size();
+    check_user(height > 0., "Grains/Fluid packing fraction: the grains form no bed whose packing could be chosen.");
+    const double result = std::sqrt(packing * height * (domain.upper()[0] - domain.lower()[0]) / area);
+    check_user(result <= 1.,
+               "Grains/Fluid packing fraction: the bed's own is only " + number(packing / (result * result)) +
+                 ", so that it cannot be " + number(packing) + " for the fluid.");
+    return result;
+  }
+} // namespace alluvium::scene
