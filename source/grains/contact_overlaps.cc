@@ -1,0 +1,50 @@
+#include <alluvium/grains/contact_overlaps.h>
+#include <alluvium/grains/contact_search.h>
+#include <alluvium/utilities/user_error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace alluvium::grains
+{
+  std::vector<Overlap>
+  find_overlaps(const GrainArrays &grains, const std::vector<WallSegment> &walls, const double tolerance)
+  {
+    WallGeometry geometry;
+    geometry.set(walls);
+    const ContactCandidates candidates = find_candidates(grains, geometry, 0.);
+    std::vector<Overlap>    overlaps;
+    for (const ContactPair &p : candidates.discs)
+      {
+        const double depth = grains.radius[p.i] + grains.radius[p.j] -
+                             std::hypot(grains.x[p.i] - grains.x[p.j], grains.y[p.i] - grains.y[p.j]);
+        if (depth > tolerance)
+          overlaps.push_back({grains.id[p.i], grains.id[p.j], "", depth});
+      }
+    for (const ContactPair &p : candidates.walls)
+      {
+        ContactPoint point;
+        if (geometry.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point) && -point.gap > tolerance)
+          overlaps.push_back({grains.id[p.i], 0, walls[p.j].name.empty() ? "wall" : walls[p.j].name, -point.gap});
+      }
+    std::stable_sort(
+      overlaps.begin(), overlaps.end(), [](const Overlap &p, const Overlap &q) { return p.depth > q.depth; });
+    return overlaps;
+  }
+
+  void check_overlaps(const GrainArrays &grains, const std::vector<WallSegment> &walls, const double tolerance)
+  {
+    const std::vector<Overlap> overlaps = find_overlaps(grains, walls, tolerance);
+    if (overlaps.empty())
+      return;
+    const Overlap     &worst = overlaps.front();
+    const std::size_t  k     = std::lower_bound(grains.id.begin(), grains.id.end(), worst.a) - grains.id.begin();
+    std::ostringstream text;
+    text << "Grain " << worst.a << " at (" << grains.x[k] << ", " << grains.y[k] << ") m overlaps "
+         << (worst.wall.empty() ? "grain " + std::to_string(worst.b) : "the wall '" + worst.wall + "'") << " by "
+         << worst.depth << " m, " << worst.depth / (2. * grains.radius[k]) << " of its diameter; " << overlaps.size()
+         << " pairs overlap by more than " << tolerance << " m. Move the grains apart.";
+    throw UserError(text.str());
+  }
+} // namespace alluvium::grains
