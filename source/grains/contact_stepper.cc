@@ -472,18 +472,22 @@ namespace alluvium::grains
       }
     double left = searched_skin - (fresh ? 0. : largest_approach(grains));
 
-    const ContactTolerance tolerance{settings.residual_tolerance,
-                                     settings.violation_tolerance,
-                                     settings.loose,
-                                     settings.patience,
-                                     settings.max_sweeps};
-    ContactSolution        solution;
-    std::array<double, 2>  end_speed{};
-    bool                   too_far = false, keep = false;
+    ContactTolerance      tolerance{settings.residual_tolerance,
+                               settings.violation_tolerance,
+                               settings.loose,
+                               settings.patience,
+                               settings.max_sweeps};
+    ContactSolution       solution;
+    std::array<double, 2> end_speed{};
+    bool                  too_far = false, keep = false;
     // Solve with the contacts that are close or closing; if the solution makes others close, add them and solve on.
     for (unsigned int round = 0;; ++round)
       {
         activate(grains, h, delta, margin, push_out, keep);
+        // A cold bed is not on the move, however many sweeps it takes.
+        tolerance.patience = std::any_of(active.begin(), active.end(), [](const Active &a) { return a.pair->rn > 0.; })
+                               ? settings.patience
+                               : settings.max_sweeps;
         build_contacts();
         problem.velocity = free_velocity;
         solution         = solver().solve(problem, tolerance);
