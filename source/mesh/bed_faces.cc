@@ -17,6 +17,21 @@ namespace alluvium::mesh
       return std::max({0., c - b, a - d});
     }
 
+    /** Distance of a box to the nearest column's @p face. */
+    double distance(const std::vector<BedFaces::Column> &columns,
+                    double BedFaces::Column::*const face,
+                    const std::array<double, 2>    &lower,
+                    const std::array<double, 2>    &upper)
+    {
+      double square = std::numeric_limits<double>::infinity();
+      for (const auto &c : columns)
+        {
+          const double dx = gap(lower[0], upper[0], c.left, c.right), dy = gap(lower[1], upper[1], c.*face, c.*face);
+          square = std::min(square, dx * dx + dy * dy);
+        }
+      return std::sqrt(square);
+    }
+
     /** The level beyond which @p area is exceeded, going through (level, area) pairs in order; false if there is not as
      * much. */
     bool level_with(const std::vector<std::pair<double, double>> &levels, const double area, double &level)
@@ -53,21 +68,13 @@ namespace alluvium::mesh
 
   double BedFaces::distance_to_top(const std::array<double, 2> &lower, const std::array<double, 2> &upper) const
   {
-    double result = std::numeric_limits<double>::infinity();
-    for (const Column &c : columns)
-      result =
-        std::min(result, std::hypot(gap(lower[0], upper[0], c.left, c.right), gap(lower[1], upper[1], c.top, c.top)));
-    return result;
+    return distance(columns, &Column::top, lower, upper);
   }
 
 
   double BedFaces::distance_to_bottom(const std::array<double, 2> &lower, const std::array<double, 2> &upper) const
   {
-    double result = std::numeric_limits<double>::infinity();
-    for (const Column &c : columns)
-      result = std::min(
-        result, std::hypot(gap(lower[0], upper[0], c.left, c.right), gap(lower[1], upper[1], c.bottom, c.bottom)));
-    return result;
+    return distance(columns, &Column::bottom, lower, upper);
   }
 
 

@@ -208,6 +208,7 @@ namespace
     for (const auto &entry : std::filesystem::directory_iterator(path))
       files.push_back(entry.path());
     std::sort(files.begin(), files.end());
+    MPI_Barrier(MPI_COMM_WORLD); // before the first rank adds files
     EXPECT_GE(files.size(), triangles ? 2u : 4u);
 
     const auto complaint = [&] {

@@ -58,7 +58,9 @@ namespace alluvium::mesh
      * `after()`; neither is called if nothing is to change. Typically with a FieldTransfer:
      *
      *   adapt(mesh, context, [&] { transfer.prepare({&old}); },
-     *                        [&] { space.reinit(bc); old = space.make_field(); transfer.interpolate({&old}); });
+     *                        [&] { space.reinit(bc); old = space.make_field();
+     *                              transfer.interpolate({&old}, space.hanging_constraints(), {},
+     * space.nodal_constraints()); });
      *
      * At `Max cells` nothing is refined any further, which the report says. Triangles stay as they are. Collective.
      */
