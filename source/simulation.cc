@@ -3,16 +3,19 @@
 #include <alluvium/fluid/line_average.h>
 #include <alluvium/fluid/vans_solver.h>
 #include <alluvium/grains/contact_stepper.h>
+#include <alluvium/grains/grain_checkpoint.h>
 #include <alluvium/grains/grain_store.h>
 #include <alluvium/mesh/adaptivity.h>
 #include <alluvium/mesh/bed_faces.h>
 #include <alluvium/mesh/domain.h>
 #include <alluvium/mesh/field_transfer.h>
+#include <alluvium/mesh/fluid_checkpoint.h>
 #include <alluvium/observers/fluid_output.h>
 #include <alluvium/observers/observer.h>
 #include <alluvium/observers/output_folder.h>
 #include <alluvium/scene/grain_setup.h>
 #include <alluvium/simulation.h>
+#include <alluvium/utilities/atomic_file.h>
 #include <alluvium/utilities/progress.h>
 #include <alluvium/utilities/signals.h>
 #include <alluvium/utilities/timers.h>
@@ -22,8 +25,10 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/grid/tria.h>
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
-#include <ctime>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 
@@ -142,9 +147,10 @@ namespace alluvium
     std::array<double, 2> gravity{};
     grains::GrainArrays   grains;
     grains::GrainLoads    loads;
+    std::vector<std::uint8_t> touched; // by others in the last step
     grains::ContactReport contact_report;
     mesh::BedFaces        initial_bed;
-    double                time    = 0.;
+    double                time = 0., coarse_cell_size = 0.;
     unsigned int          n_steps = 0;
 
     // the output
@@ -212,8 +218,8 @@ namespace alluvium
     if (has_fluid)
       {
         const auto context = mesh::make_refinement_context(grains, lower[0], upper[0]);
-        const double coarse = domain.coarse_cell_size() > 0. ? domain.coarse_cell_size() : adaptivity.coarse_size(context);
-        triangulation       = domain.make_triangulation(coarse);
+        coarse_cell_size = domain.coarse_cell_size() > 0. ? domain.coarse_cell_size() : adaptivity.coarse_size(context);
+        triangulation    = domain.make_triangulation(coarse_cell_size);
         adaptivity.check_mesh(*triangulation);
         adaptivity.make_initial_mesh(*triangulation, context);
 
@@ -234,6 +240,7 @@ namespace alluvium
         coupling.update_void_fraction(grains);
         fluid_view = std::make_unique<observers::FluidView>(observers::FluidView{space, solver, boundary_conditions, coupling});
       }
+    touched.assign(grains.n(), 0);
     store.initialize(grains, lower, upper, contacts.settings().skin * largest);
 
     observing.clear();
@@ -370,8 +377,8 @@ namespace alluvium
           adapt_mesh();
         const auto timer = timers.scope("fluid");
         boundary_conditions.set_time(time + dt);
-        coupling.step(boundary_conditions, grains, contacts.touched(), dt, !grains_move, loads);
         solver.accept();
+        coupling.step(boundary_conditions, grains, touched, dt, !grains_move, loads);
       }
     else
       load_by_gravity();
@@ -380,6 +387,7 @@ namespace alluvium
       {
         const auto timer = timers.scope("contacts");
         contact_report   = contacts.advance(grains, loads, dt, gravity);
+        touched          = contacts.touched();
         if (has_fluid)
           coupling.add_grain_response(grains, loads);
         store.scatter(grains);
@@ -415,7 +423,7 @@ namespace alluvium
     adaptivity.adapt(
       *triangulation,
       mesh::make_refinement_context(grains, domain.lower()[0], domain.upper()[0]),
-      [&] { transfer->prepare({&solver.old()}); },
+      [&] { transfer->prepare({&solver.solution()}); },
       [&] {
         space.reinit(boundary_conditions);
         field = space.make_field();
@@ -527,8 +535,95 @@ namespace alluvium
 
 
 
-  void Simulation::Implementation::write_checkpoint() {}
-  void Simulation::Implementation::read_checkpoint() {}
+  void Simulation::Implementation::write_checkpoint()
+  {
+    const auto timer = timers.scope("checkpoints");
+    // a new folder takes the place of the old one only when it is complete
+    const std::string final = checkpoint_folder(), folder_new = final + ".new";
+    if (speaks)
+      {
+        std::filesystem::remove_all(folder_new);
+        std::filesystem::create_directories(folder_new);
+      }
+    MPI_Barrier(communicator);
+    grains::save_grains(communicator, folder_new + "/grains", grains, contacts.archive());
+    if (has_fluid)
+      {
+        mesh::FluidCheckpoint<dim>(folder_new).save(space.dof_handler(), {&solver.solution()}, space.nodal_dof_handler(), {});
+        // the run that goes on and the one that restarts shall both begin with a fresh preconditioner
+        solver.linear_solver.clear();
+      }
+    if (speaks)
+      {
+        nlohmann::ordered_json state;
+        state["time"]     = time;
+        state["steps"]    = n_steps;
+        state["pictures"] = n_pictures;
+        state["grains"]   = grain_files;
+        if (fluid_output)
+          state["fluid"] = fluid_output->written();
+        state["counts"] = counts;
+        for (const auto &name : Utilities::split_string_list(observer_choice.name()))
+          observer_choice.get(name).save(state["observers"][name]);
+        write_atomically(folder_new + "/state.json", state.dump(1));
+        std::filesystem::remove_all(final);
+        std::filesystem::rename(folder_new, final);
+      }
+    MPI_Barrier(communicator);
+  }
+
+
+
+  void Simulation::Implementation::read_checkpoint()
+  {
+    const std::string from = checkpoint_folder();
+    check_user(std::filesystem::exists(from + "/state.json"),
+               "Output/Restart: there is no checkpoint in '" + folder.path() + "'.");
+    nlohmann::ordered_json state;
+    try
+      {
+        state    = nlohmann::ordered_json::parse(std::ifstream(from + "/state.json"));
+        time     = state.at("time");
+        n_steps  = state.at("steps");
+        n_pictures  = state.at("pictures");
+        grain_files = state.at("grains").get<decltype(grain_files)>();
+        counts      = state.at("counts").get<decltype(counts)>();
+        if (fluid_output)
+          fluid_output->resume(state.at("fluid").get<std::vector<std::pair<double, std::string>>>(), time);
+        for (const auto &name : Utilities::split_string_list(observer_choice.name()))
+          if (!state.at("observers").at(name).is_null())
+            observer_choice.get(name).load(state.at("observers").at(name));
+      }
+    catch (const nlohmann::json::exception &)
+      {
+        throw UserError("Output/Restart: the checkpoint's '" + from + "/state.json' is corrupt.");
+      }
+    grains::ContactArchive archive;
+    const std::size_t      n = grains.n();
+    grains::load_grains(communicator, from + "/grains", grains, archive);
+    check_user(grains.n() == n,
+               "Output/Restart: the checkpoint has " + std::to_string(grains.n()) + " grains, the scene " + std::to_string(n) + ".");
+    contacts.set_archive(archive);
+    for (std::size_t i = 0; i < n; ++i)
+      touched[i] = grains.fcx[i] != 0. || grains.fcy[i] != 0.;
+    store.scatter(grains);
+    if (has_fluid)
+      {
+        mesh::FluidCheckpoint<dim> checkpoint(from);
+        auto                       mesh = domain.make_triangulation(coarse_cell_size);
+        checkpoint.load_mesh(*mesh);
+        space.attach(*mesh);
+        triangulation = std::move(mesh);
+        transfer      = std::make_unique<mesh::FieldTransfer<dim>>(space.dof_handler(), space.nodal_dof_handler());
+        space.reinit(boundary_conditions);
+        solver.reinit();
+        coupling.reinit();
+        fluid::BlockVector field = space.make_field();
+        checkpoint.load_fields(space.dof_handler(), {&field}, space.nodal_dof_handler(), {});
+        solver.set_solution(field);
+      }
+    statistics->resume(time);
+  }
 
 
 

@@ -1,3 +1,4 @@
+#include <alluvium/grains/contact_overlaps.h>
 #include <alluvium/mesh/bed_faces.h>
 #include <alluvium/scene/grain_setup.h>
 
@@ -6,6 +7,7 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -67,7 +69,7 @@ namespace alluvium::scene
     prm.add_parameter("Fixed", fixed_grains, "Hold all grains where they are; the fluid flows through them.");
     prm.add_parameter("Overlap tolerance",
                       overlap_tolerance,
-                      "Largest overlap at t = 0, between grains or of a grain with a wall, as a part of the smaller diameter; more is an "
+                      "Largest overlap at t = 0, between grains or of a grain with a wall, as a part of the smallest diameter; more is an "
                       "error.",
                       Patterns::Double(0.));
     prm.add_parameter("Extra walls",
@@ -152,6 +154,7 @@ namespace alluvium::scene
                        ") m is outside the domain, which reaches from (" + number(domain.lower()[0]) + ", " +
                        number(domain.lower()[1]) + ") to (" + number(domain.upper()[0]) + ", " + number(domain.upper()[1]) + ") m.");
       }
+    grains::check_overlaps(grains, walls, 2. * overlap_tolerance * *std::min_element(grains.radius.begin(), grains.radius.end()));
     last_factor = find_radius_factor(grains, domain);
     for (std::size_t i = 0; i < n; ++i)
       {

@@ -38,7 +38,7 @@ namespace alluvium::fluid
       solve_with_new_known_terms();
     }
 
-    /** End of the step: u^n <- u^{n+1}. */
+    /** Start of the next step: u^n <- u^{n+1}. Until then flux() and interphase_force() belong to the last one. */
     void accept();
 
     /** Outflow through a boundary with the latest solution and terms [m^2/s]. */

@@ -4,6 +4,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>
+#include <deal.II/base/utilities.h>
 
 #include <functional>
 #include <map>
@@ -88,10 +89,12 @@ namespace alluvium
 
     const std::string &name() const { return selected; }
 
-    Interface &get() const
+    Interface &get() const { return get(selected); }
+
+    Interface &get(const std::string &plugin) const
     {
-      const auto it = instances.find(selected);
-      check_user(it != instances.end(), "There is no plug-in named '" + selected + "'.");
+      const auto it = instances.find(plugin);
+      check_user(it != instances.end(), "There is no plug-in named '" + plugin + "'.");
       return *it->second;
     }
 
@@ -100,7 +103,7 @@ namespace alluvium
     {
       std::vector<Interface *> result;
       for (const auto &key : dealii::Utilities::split_string_list(selected, ','))
-        result.push_back(instances.at(key).get());
+        result.push_back(&get(key));
       return result;
     }
 
