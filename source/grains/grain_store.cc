@@ -160,6 +160,14 @@ namespace alluvium::grains
       return index(y, 1) * n_cells[0] + index(x, 0);
     }
 
+    /** Are the cells around @p a and @p b the same or next to each other, sides or corners? */
+    bool are_neighbors(const Point<2> &a, const Point<2> &b) const
+    {
+      const std::size_t m = cell_number(a[0], a[1]), n = cell_number(b[0], b[1]);
+      const auto        near = [](const std::size_t i, const std::size_t j) { return i <= j + 1 && j <= i + 1; };
+      return near(m % n_cells[0], n % n_cells[0]) && near(m / n_cells[0], n / n_cells[0]);
+    }
+
     void list_cells()
     {
       my_cells.assign(std::size_t(n_cells[0]) * n_cells[1], Cell());
@@ -336,15 +344,24 @@ namespace alluvium::grains
     my.n_rescued = 0;
     if (!my.particles)
       return;
-    for (auto &particle : *my.particles)
+    // deal.II knows only the cells next to its own: who jumps farther is taken out here and put in again below
+    std::vector<Particles::ParticleIterator<2>> far;
+    for (auto particle = my.particles->begin(); particle != my.particles->end(); ++particle)
       {
-        const auto i = particle.get_id();
-        particle.set_location(Point<2>(grains.x[i], grains.y[i]));
-        const auto values = particle.get_properties();
+        const auto i = particle->get_id();
+        if (!my.are_neighbors(particle->get_surrounding_cell()->center(), Point<2>(grains.x[i], grains.y[i])))
+          {
+            far.push_back(particle);
+            continue;
+          }
+        particle->set_location(Point<2>(grains.x[i], grains.y[i]));
+        const auto values = particle->get_properties();
         for (unsigned int p = 0; p < properties.size(); ++p)
           values[p] = (grains.*properties[p])[i];
       }
+    my.particles->remove_particles(far);
     my.particles->sort_particles_into_subdomains_and_cells();
+    my.particles->update_cached_numbers();
     if (my.particles->n_global_particles() != my.n_grains)
       my.rescue(grains);
   }

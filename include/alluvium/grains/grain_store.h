@@ -59,8 +59,8 @@ namespace alluvium::grains
     void rebalance();
 
     /**
-     * How many grains the last scatter() had to put into their cells by hand, because deal.II lost them: they jumped
-     * beyond the ghost cells, or hit a vertex with a deal.II before 9.6.
+     * How many grains the last scatter() put into their cells by hand: they jumped over a whole cell, which deal.II
+     * cannot follow, or it lost them (on a vertex, before 9.6).
      */
     std::size_t n_rescued() const;
 
