@@ -236,6 +236,7 @@ namespace alluvium
         transfer = std::make_unique<mesh::FieldTransfer<dim>>(space.dof_handler(), space.nodal_dof_handler());
         space.reinit(boundary_conditions);
         solver.reinit();
+        solver.choose_datum(boundary_conditions);
         coupling.reinit();
         coupling.update_void_fraction(grains);
         fluid_view = std::make_unique<observers::FluidView>(observers::FluidView{space, solver, boundary_conditions, coupling});
@@ -490,6 +491,7 @@ namespace alluvium
                           solver.solution(),
                           coupling.void_fraction(),
                           solver.properties.density * solver.gravity,
+                          solver.datum(),
                           time,
                           n_pictures);
     ++n_pictures;
@@ -561,7 +563,10 @@ namespace alluvium
         state["pictures"] = n_pictures;
         state["grains"]   = grain_files;
         if (fluid_output)
-          state["fluid"] = fluid_output->written();
+          {
+            state["fluid"] = fluid_output->written();
+            state["datum"] = solver.datum();
+          }
         state["counts"] = counts;
         for (const auto &name : Utilities::split_string_list(observer_choice.name()))
           observer_choice.get(name).save(state["observers"][name]);
@@ -589,7 +594,10 @@ namespace alluvium
         grain_files = state.at("grains").get<decltype(grain_files)>();
         counts      = state.at("counts").get<decltype(counts)>();
         if (fluid_output)
-          fluid_output->resume(state.at("fluid").get<std::vector<std::pair<double, std::string>>>(), time);
+          {
+            fluid_output->resume(state.at("fluid").get<std::vector<std::pair<double, std::string>>>(), time);
+            solver.set_datum(state.at("datum"));
+          }
         for (const auto &name : Utilities::split_string_list(observer_choice.name()))
           if (!state.at("observers").at(name).is_null())
             observer_choice.get(name).load(state.at("observers").at(name));

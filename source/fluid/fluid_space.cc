@@ -11,6 +11,7 @@
 #include <deal.II/fe/mapping_q1.h>
 #include <deal.II/grid/tria.h>
 
+#include <limits>
 #include <set>
 
 namespace alluvium::fluid
@@ -369,8 +370,8 @@ namespace alluvium::fluid
 
   template <int dim>
   void FluidSpace<dim>::apply_boundary_values(const BoundaryConditions<dim> &boundary_conditions,
-                                              const double                   density,
-                                              const Tensor<1, dim>          &gravity,
+                                              const Tensor<1, dim>          &hydrostatic_gradient,
+                                              const double                   datum,
                                               BlockVector                   &field) const
   {
     field.zero_out_ghost_values();
@@ -381,13 +382,35 @@ namespace alluvium::fluid
         if (b.component == dim)
           {
             if (partitioners[1]->in_local_range(b.dof - first_pressure))
-              field.block(1)(b.dof - first_pressure) = value.value(b.point) - density * (gravity * b.point);
+              field.block(1)(b.dof - first_pressure) = value.value(b.point) - hydrostatic_gradient * b.point - datum;
           }
         else if (partitioners[0]->in_local_range(b.dof))
           field.block(0)(b.dof) = value.value(b.point, b.component);
       }
     hanging.distribute(field);
     field.update_ghost_values();
+  }
+
+
+
+  template <int dim>
+  double FluidSpace<dim>::pressure_datum(const BoundaryConditions<dim> &boundary_conditions,
+                                         const Tensor<1, dim>          &hydrostatic_gradient) const
+  {
+    // the node with the lowest number that has a pressure, whichever rank knows it
+    const auto              nowhere = std::numeric_limits<types::global_dof_index>::max();
+    types::global_dof_index first   = nowhere;
+    double                  value   = 0.;
+    for (const BoundaryDof &b : boundary_dofs)
+      if (b.component == dim && b.dof < first)
+        {
+          first = b.dof;
+          value = boundary_conditions.all().at(b.boundary).value->value(b.point) - hydrostatic_gradient * b.point;
+        }
+    const auto lowest = Utilities::MPI::min(first, communicator());
+    if (lowest == nowhere)
+      return 0.;
+    return Utilities::MPI::max(first == lowest ? value : -std::numeric_limits<double>::max(), communicator());
   }
 
 

@@ -43,8 +43,17 @@ namespace alluvium::fluid
     previous  = space->make_field();
     residual  = space->make_field();
     increment = space->make_field();
+    product   = space->make_field();
     iterate.update_ghost_values();
     previous.update_ghost_values();
+  }
+
+
+
+  template <int dim>
+  void VansSolver<dim>::choose_datum(const BoundaryConditions<dim> &boundary_conditions)
+  {
+    pressure_datum = space->pressure_datum(boundary_conditions, properties.density * gravity);
   }
 
 
@@ -61,7 +70,7 @@ namespace alluvium::fluid
         linear_solver.clear();
         dt_of_preconditioner = current.dt;
       }
-    space->apply_boundary_values(boundary_conditions, properties.density, gravity, iterate);
+    space->apply_boundary_values(boundary_conditions, properties.density * gravity, pressure_datum, iterate);
   }
 
 
@@ -70,6 +79,7 @@ namespace alluvium::fluid
   void VansSolver<dim>::solve()
   {
     assembler.assemble(current, iterate, residual);
+    report = {};
     solve_increment();
   }
 
@@ -88,6 +98,7 @@ namespace alluvium::fluid
   {
     // the residual at the new iterate, A being the same
     assembler.add_known_interphase(current, 1., residual);
+    report = {};
     solve_increment();
   }
 
@@ -96,23 +107,18 @@ namespace alluvium::fluid
   template <int dim>
   void VansSolver<dim>::solve_increment()
   {
-    std::array<double, 2> scale = assembler.term_norms(current, iterate);
-    // from rest no term has a size yet: the residual itself gives the first, u = p dt / (rho h) relates the two
-    const double residual_norm = residual.block(0).l2_norm();
-    scale[0]                   = std::max(scale[0], residual_norm);
-    const double length = std::sqrt(Utilities::MPI::max(space->cells().empty() ? 0. : space->cells().front().measure,
-                                                        space->communicator()));
-    if (scale[0] == 0.)
-      scale[0] = residual.block(1).l2_norm() * properties.density * length / current.dt;
-    if (scale[0] == 0.)
-      return; // nothing moves and nothing pushes
-    if (scale[1] < 1e-12 * scale[0] * current.dt / (properties.density * length))
-      scale[1] = scale[0] * current.dt / (properties.density * length);
-
-    report = linear_solver.solve(assembler.matrix(), residual, scale, space->constraints(), increment);
-    if (report.n_iterations > 0)
+    // the terms' sizes are known from the last iterate; if they turn out much smaller, the tolerance was too loose: once more
+    for (unsigned int attempt = 0; attempt < 3; ++attempt)
       {
-        BlockVector product(increment);
+        const std::array<double, 2> scale = term_scale();
+        if (scale[0] == 0.)
+          return; // nothing moves and nothing pushes
+        const LinearSolverReport solve =
+          linear_solver.solve(assembler.matrix(), residual, scale, space->constraints(), increment);
+        report.residual = solve.residual;
+        report.n_iterations += solve.n_iterations;
+        if (solve.n_iterations == 0)
+          return;
         assembler.matrix().block(0, 0).vmult(product.block(0), increment.block(0));
         assembler.matrix().block(0, 1).vmult_add(product.block(0), increment.block(1));
         assembler.matrix().block(1, 0).vmult(product.block(1), increment.block(0));
@@ -122,7 +128,27 @@ namespace alluvium::fluid
         space->constraints().distribute(increment);
         iterate += increment;
         iterate.update_ghost_values();
+        const std::array<double, 2> found = assembler.term_norms(current, iterate);
+        if (found[0] > 0.2 * scale[0] && found[1] > 0.2 * scale[1])
+          return;
       }
+  }
+
+
+
+  template <int dim>
+  std::array<double, 2> VansSolver<dim>::term_scale() const
+  {
+    std::array<double, 2> scale = assembler.term_norms(current, iterate);
+    // from rest no term has a size yet: the residual itself gives the first, u = p dt / (rho h) relates the two
+    scale[0] = std::max(scale[0], residual.block(0).l2_norm());
+    const double length = std::sqrt(
+      Utilities::MPI::max(space->cells().empty() ? 0. : space->cells().front().measure, space->communicator()));
+    const double flux_per_force = current.dt / (properties.density * length);
+    if (scale[0] == 0.)
+      scale[0] = residual.block(1).l2_norm() / flux_per_force;
+    scale[1] = std::max(scale[1], 1e-12 * scale[0] * flux_per_force);
+    return scale;
   }
 
 

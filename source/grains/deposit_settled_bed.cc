@@ -1,4 +1,5 @@
 #include <alluvium/grains/contact_stepper.h>
+#include <alluvium/grains/deposit_box.h>
 #include <alluvium/grains/deposit_pour.h>
 #include <alluvium/grains/deposit_table.h>
 #include <alluvium/grains/random_numbers.h>
@@ -43,6 +44,7 @@ namespace alluvium::grains
     void add_parameters(dealii::ParameterHandler &prm) override
     {
       using namespace dealii::Patterns;
+      prm.add_parameter("Box", box_text, deposit_box_prose);
       prm.add_parameter("Number of grains", n_wanted, "How many. 0: as many as 'Bed height' takes.", Integer(0));
       prm.add_parameter(
         "Bed height",
@@ -70,15 +72,15 @@ namespace alluvium::grains
       check_user(d_min > 0., "The deposit 'settled bed' needs a positive 'Smallest diameter'.");
       check_user(n_wanted > 0 || height > 0.,
                  "The deposit 'settled bed' has no grains: set its 'Number of grains' or 'Bed height'.");
-      check_user(context.upper[0] - context.lower[0] > 2. * d_min * ratio,
-                 "The deposit 'settled bed': the domain is narrower than two grains.");
+      const DepositBox box = parse_deposit_box(box_text, context);
+      check_user(box.width() > 2. * d_min * ratio, "The deposit 'settled bed': its box is narrower than two grains.");
 
       // The bed settles straight down whatever way the scene is tilted.
       const double g_scene = std::hypot(context.gravity[0], context.gravity[1]), g = g_scene > 0. ? g_scene : 9.81;
       std::string  recipe = "settled bed, version 1\n";
-      for (const auto &[name, value] : {std::make_pair("x0", context.lower[0]),
-                                        std::make_pair("y0", context.lower[1]),
-                                        std::make_pair("x1", context.upper[0]),
+      for (const auto &[name, value] : {std::make_pair("x0", box.lower[0]),
+                                        std::make_pair("y0", box.lower[1]),
+                                        std::make_pair("x1", box.upper[0]),
                                         std::make_pair("number", double(n_wanted)),
                                         std::make_pair("height", n_wanted > 0 ? 0. : height),
                                         std::make_pair("d_min", d_min),
@@ -90,39 +92,38 @@ namespace alluvium::grains
         recipe += std::string(name) + " = " + exact(value) + "\n";
 
       if (cache.empty())
-        return checked(settle(context, g), context);
+        return checked(settle(context, box, g), box);
       const std::string folder = path_from(context.directory, cache),
                         file   = folder + "/settled_bed_" + hash(recipe) + ".csv";
       if (std::filesystem::exists(file))
-        return checked(read_grain_table(file, context.density), context);
+        return checked(read_grain_table(file, context.density), box);
       std::error_code error;
       std::filesystem::create_directories(folder, error);
       check_user(!error, "Cannot make the cache folder '" + folder + "': " + error.message() + ".");
-      const std::vector<Seed> seeds = settle(context, g);
+      const std::vector<Seed> seeds = settle(context, box, g);
       write_grain_table(file, seeds, recipe);
-      return checked(seeds, context);
+      return checked(seeds, box);
     }
 
   private:
     unsigned int n_wanted = 2000, seed = 1;
     double       height = 0., d_min = 2e-4, ratio = 1.2, friction = 0.4;
-    std::string  cache = "deposits";
+    std::string  cache = "deposits", box_text;
 
-    static std::vector<Seed> checked(std::vector<Seed> seeds, const DepositContext &context)
+    static std::vector<Seed> checked(std::vector<Seed> seeds, const DepositBox &box)
     {
-      double top = context.lower[1];
+      double top = box.lower[1];
       for (const Seed &s : seeds)
         top = std::max(top, s.y + s.radius);
-      check_user(top <= context.upper[1],
-                 "The deposit 'settled bed' is " + std::to_string(top - context.lower[1]) +
-                   " m high, the domain only " + std::to_string(context.upper[1] - context.lower[1]) + " m.");
+      check_user(top <= box.upper[1],
+                 "The deposit 'settled bed' is " + std::to_string(top - box.lower[1]) +
+                   " m high, its box only " + std::to_string(box.upper[1] - box.lower[1]) + " m.");
       return seeds;
     }
 
-    std::vector<Seed> settle(const DepositContext &context, const double g) const
+    std::vector<Seed> settle(const DepositContext &context, const DepositBox &box, const double g) const
     {
       RandomNumbers     random(seed);
-      const DepositBox  box{context.lower, context.upper};
       Pour              pour(box, 0.5 * d_min * ratio);
       std::vector<Seed> seeds;
       double            area = 0.;

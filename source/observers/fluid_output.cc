@@ -15,6 +15,7 @@ namespace alluvium::observers
                           const fluid::BlockVector   &solution,
                           const fluid::Vector        &void_fraction,
                           const Tensor<1, 2>         &reference_gradient,
+               const double datum,
                           const double                time,
                           const unsigned int          number)
   {
@@ -23,7 +24,7 @@ namespace alluvium::observers
     for (const auto &cell : space.cells())
       for (unsigned int v = 0; v < space.n_nodes_per_cell(); ++v)
         pressure.local_element(cell.node[v]) =
-          solution.block(1).local_element(cell.pressure[v]) + reference_gradient * cell.vertex[v];
+          solution.block(1).local_element(cell.pressure[v]) + reference_gradient * cell.vertex[v] + datum;
     pressure.update_ghost_values();
 
     DataOut<2> data;

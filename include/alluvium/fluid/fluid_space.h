@@ -62,11 +62,21 @@ namespace alluvium::fluid
     BlockVector make_field() const;       // ghosted, zero
     Vector      make_nodal_field() const; // scalar, ghosted, zero
 
-    /** Set @p field's boundary values at the time of @p boundary_conditions, then its hanging nodes. */
-    void apply_boundary_values(const BoundaryConditions<dim>           &boundary_conditions,
-                               const double                             density,
-                               const dealii::Tensor<1, dim>            &gravity,
-                               BlockVector                             &field) const;
+    /**
+     * Set @p field's boundary values at the time of @p boundary_conditions, then its hanging nodes. The reduced pressure is
+     * p - rho g.x - @p datum, with @p hydrostatic_gradient = rho g.
+     */
+    void apply_boundary_values(const BoundaryConditions<dim> &boundary_conditions,
+                               const dealii::Tensor<1, dim>  &hydrostatic_gradient,
+                               const double                   datum,
+                               BlockVector                   &field) const;
+
+    /**
+     * The prescribed p - rho g.x at one node, the same on all ranks: a datum that spares the linear solver large constants. Zero
+     * if no boundary has a pressure. Collective.
+     */
+    double pressure_datum(const BoundaryConditions<dim> &boundary_conditions,
+                          const dealii::Tensor<1, dim>  &hydrostatic_gradient) const;
 
     const dealii::Triangulation<dim> &triangulation() const { return *tria; }
     const dealii::Mapping<dim>       &mapping() const { return *map; }

@@ -55,6 +55,14 @@ namespace alluvium::fluid
 
     const LinearSolverReport &last_report() const { return report; }
 
+    /**
+     * Choose the pressure's datum from the boundary conditions at the start of a run; total pressure = reduced pressure + rho g.x +
+     * datum(). A restart takes that of the interrupted run.
+     */
+    void   choose_datum(const BoundaryConditions<dim> &boundary_conditions);
+    void   set_datum(const double value) { pressure_datum = value; }
+    double datum() const { return pressure_datum; }
+
     FluidProperties properties;
     dealii::Tensor<1, dim> gravity;
     Discretisation  discretisation;
@@ -64,12 +72,13 @@ namespace alluvium::fluid
     void remove_known_terms();
     void solve_with_new_known_terms();
     void solve_increment();
+    std::array<double, 2> term_scale() const;
 
     const FluidSpace<dim> *space;
     VansAssembler<dim>     assembler;
     VansProblem<dim>       current;
-    BlockVector            iterate, previous, residual, increment;
+    BlockVector            iterate, previous, residual, increment, product;
     LinearSolverReport     report;
-    double                 dt_of_preconditioner = 0.;
+    double                 dt_of_preconditioner = 0., pressure_datum = 0.;
   };
 } // namespace alluvium::fluid

@@ -21,11 +21,12 @@ namespace alluvium::observers
       , hdf5(hdf5)
     {}
 
-    /** @p reference_gradient is rho g [Pa/m], what the reduced pressure lacks. Collective. */
+    /** The total pressure is the reduced one + @p reference_gradient.x + @p datum, rho g [Pa/m] and [Pa]. Collective. */
     void write(const fluid::FluidSpace<2>        &space,
                const fluid::BlockVector          &solution,
                const fluid::Vector               &void_fraction,
                const dealii::Tensor<1, 2>        &reference_gradient,
+               const double datum,
                const double                       time,
                const unsigned int                 number);
 
