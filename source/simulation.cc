@@ -117,6 +117,7 @@ namespace alluvium
     void                write_pictures();
     void                open_output();
     void                load_by_gravity();
+    void                find_initial_contact_forces();
     void                write_checkpoint();
     void                read_checkpoint();
     void                conclude(const bool interrupted);
@@ -243,6 +244,9 @@ namespace alluvium
       }
     touched.assign(grains.n(), 0);
     store.initialize(grains, lower, upper, contacts.settings().skin * largest);
+
+    if (grains_move)
+      find_initial_contact_forces();
 
     observing.clear();
     for (observers::Observer *observer : observer_choice.all())
@@ -413,6 +417,29 @@ namespace alluvium
         loads.fx[i] = grains.mass[i] * gravity[0];
         loads.fy[i] = grains.mass[i] * gravity[1];
       }
+  }
+
+
+
+  /**
+   * The first prediction needs the contact forces at rest: without them the bed would "fall" in it. They come from a step of the
+   * contacts under the grains' reduced weight, whose motion is thrown away.
+   */
+  void Simulation::Implementation::find_initial_contact_forces()
+  {
+    load_by_gravity();
+    if (has_fluid)
+      for (std::size_t i = 0; i < grains.n(); ++i)
+        {
+          const double displaced = solver.properties.density * numbers::PI * grains.fluid_radius[i] * grains.fluid_radius[i];
+          loads.fx[i] -= displaced * gravity[0];
+          loads.fy[i] -= displaced * gravity[1];
+        }
+    grains::GrainArrays trial = grains;
+    contact_report            = contacts.advance(trial, loads, parameters.time_step, gravity);
+    touched                   = contacts.touched();
+    grains.fcx                = trial.fcx;
+    grains.fcy                = trial.fcy;
   }
 
 

@@ -42,6 +42,15 @@ namespace alluvium::fluid
       return {&cell->get_triangulation(), cell->level(), cell->index(), &other};
     }
 
+    template <typename Cell>
+    bool is_on_face(const Cell &cell, const unsigned int f, const unsigned int v)
+    {
+      for (const unsigned int w : cell->face(f)->vertex_indices())
+        if (cell->face(f)->vertex_index(w) == cell->vertex_index(v))
+          return true;
+      return false;
+    }
+
     template <int dim>
     Quadrature<dim - 1> face_quadrature()
     {
@@ -164,7 +173,8 @@ namespace alluvium::fluid
               face_values.reinit(nodal_cell, f);
               for (unsigned int v = 0; v < n_nodes; ++v)
                 {
-                  if (!scalar_fe->has_support_on_face(v, f))
+                  // nodes are vertices; FE_SimplexP has no has_support_on_face() of its own
+                  if (!is_on_face(cell, f, v))
                     continue;
                   Node &node = nodes[cell_nodes[v]];
                   for (unsigned int c = 0; c <= dim; ++c)
