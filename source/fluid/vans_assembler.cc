@@ -63,6 +63,8 @@ namespace alluvium::fluid
         supg = problem.discretisation.convection ? tau * rho_eps : 0.;
       }
 
+      bool has_pieces() const { return end > begin; }
+
       void matrix(LocalMatrix &L) const
       {
         for (auto &row : L)
@@ -327,17 +329,21 @@ namespace alluvium::fluid
 
 
   template <int dim>
-  void VansAssembler<dim>::assemble(const VansProblem<dim> &problem, const BlockVector &iterate, BlockVector &residual)
+  void VansAssembler<dim>::assemble(const VansProblem<dim> &problem,
+                                    const BlockVector      &iterate,
+                                    BlockVector            &residual,
+                                    BlockVector            &known)
   {
     system_matrix = 0.;
     residual      = 0.;
+    known         = 0.;
     with_kernel<dim>(*space, problem, [&](auto kernel) {
       using K                       = decltype(kernel);
       constexpr unsigned int n      = K::n_local;
       typename K::LocalMatrix L;
       typename K::LocalVector b;
       FullMatrix<double>                   local_matrix(n, n);
-      dealii::Vector<double>               local_residual(n);
+      dealii::Vector<double>               local_residual(n), local_known(n);
       std::vector<types::global_dof_index> local_dofs(n);
       const auto                          &constraints = space->constraints();
       for (unsigned int i = 0; i < space->cells().size(); ++i)
@@ -347,7 +353,8 @@ namespace alluvium::fluid
           kernel.matrix(L);
           b.fill(0.);
           kernel.known_mesh(b);
-          kernel.known_pieces(b);
+          typename K::LocalVector b_pieces{};
+          kernel.known_pieces(b_pieces);
           std::array<double, n> x;
           for (unsigned int v = 0; v < n / (dim + 1); ++v)
             {
@@ -364,10 +371,13 @@ namespace alluvium::fluid
                   local_matrix(r, c) = L[r][c];
                 }
               local_residual(r) = sum;
+              local_known(r)    = b_pieces[r];
               local_dofs[r]     = cell.dofs[r];
             }
           constraints.distribute_local_to_global(local_matrix, local_dofs, system_matrix);
           constraints.distribute_local_to_global(local_residual, local_dofs, residual);
+          if (kernel.has_pieces())
+            constraints.distribute_local_to_global(local_known, local_dofs, known);
         }
       // prescribed inflow: the boundary term of the continuity equation, with the iterate's boundary values
       for (const auto &face : space->inflow_faces())
@@ -393,15 +403,16 @@ namespace alluvium::fluid
     });
     system_matrix.compress(VectorOperation::add);
     residual.compress(VectorOperation::add);
+    known.compress(VectorOperation::add);
+    residual += known;
   }
 
 
 
   template <int dim>
-  void VansAssembler<dim>::add_known_interphase(const VansProblem<dim> &problem,
-                                                const double            factor,
-                                                BlockVector            &right_hand_side) const
+  void VansAssembler<dim>::known_interphase(const VansProblem<dim> &problem, BlockVector &known) const
   {
+    known = 0.;
     with_kernel<dim>(*space, problem, [&](auto kernel) {
       using K                  = decltype(kernel);
       constexpr unsigned int n = K::n_local;
@@ -417,13 +428,13 @@ namespace alluvium::fluid
           kernel.known_pieces(b);
           for (unsigned int r = 0; r < n; ++r)
             {
-              local(r)      = factor * b[r];
+              local(r)      = b[r];
               local_dofs[r] = space->cells()[i].dofs[r];
             }
-          space->constraints().distribute_local_to_global(local, local_dofs, right_hand_side);
+          space->constraints().distribute_local_to_global(local, local_dofs, known);
         }
     });
-    right_hand_side.compress(VectorOperation::add);
+    known.compress(VectorOperation::add);
   }
 
 

@@ -44,6 +44,7 @@ namespace alluvium::fluid
     residual  = space->make_field();
     increment = space->make_field();
     product   = space->make_field();
+    known     = space->make_field();
     iterate.update_ghost_values();
     previous.update_ghost_values();
   }
@@ -78,17 +79,9 @@ namespace alluvium::fluid
   template <int dim>
   void VansSolver<dim>::solve()
   {
-    assembler.assemble(current, iterate, residual);
+    assembler.assemble(current, iterate, residual, known);
     report = {};
     solve_increment();
-  }
-
-
-
-  template <int dim>
-  void VansSolver<dim>::remove_known_terms()
-  {
-    assembler.add_known_interphase(current, -1., residual);
   }
 
 
@@ -97,7 +90,9 @@ namespace alluvium::fluid
   void VansSolver<dim>::solve_with_new_known_terms()
   {
     // the residual at the new iterate, A being the same
-    assembler.add_known_interphase(current, 1., residual);
+    residual -= known;
+    assembler.known_interphase(current, known);
+    residual += known;
     report = {};
     solve_increment();
   }

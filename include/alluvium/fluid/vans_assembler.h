@@ -52,11 +52,11 @@ namespace alluvium::fluid
     /** Build the sparsity pattern; call after every FluidSpace::reinit(). */
     void reinit();
 
-    /** Fill matrix() and @p residual = r(@p iterate). */
-    void assemble(const VansProblem<dim> &problem, const BlockVector &iterate, BlockVector &residual);
+    /** Fill matrix(), @p residual = r(@p iterate), and the part of it that known_interphase() gives. */
+    void assemble(const VansProblem<dim> &problem, const BlockVector &iterate, BlockVector &residual, BlockVector &known);
 
-    /** Add the pieces' known terms (a, e, u_ref) to @p right_hand_side, times @p factor: all that a change of lag changes. */
-    void add_known_interphase(const VansProblem<dim> &problem, const double factor, BlockVector &right_hand_side) const;
+    /** The pieces' known terms (a, e, u_ref): all that a change of lag changes. */
+    void known_interphase(const VansProblem<dim> &problem, BlockVector &known) const;
 
     /**
      * Flux of the mixture out through boundary @p id [m^2/s], from the continuity equation's own residual: what enters minus what

@@ -33,7 +33,6 @@ namespace alluvium::fluid
     template <typename Function>
     void solve_again(const Function &change_terms)
     {
-      remove_known_terms();
       change_terms(current);
       solve_with_new_known_terms();
     }
@@ -69,7 +68,6 @@ namespace alluvium::fluid
     LinearSolver    linear_solver;
 
   private:
-    void remove_known_terms();
     void solve_with_new_known_terms();
     void solve_increment();
     std::array<double, 2> term_scale() const;
@@ -77,7 +75,7 @@ namespace alluvium::fluid
     const FluidSpace<dim> *space;
     VansAssembler<dim>     assembler;
     VansProblem<dim>       current;
-    BlockVector            iterate, previous, residual, increment, product;
+    BlockVector            iterate, previous, residual, known, increment, product;
     LinearSolverReport     report;
     double                 dt_of_preconditioner = 0., pressure_datum = 0.;
   };
