@@ -15,7 +15,7 @@
 #include <alluvium/observers/output_folder.h>
 #include <alluvium/scene/grain_setup.h>
 #include <alluvium/simulation.h>
-#include <alluvium/utilities/atomic_file.h>
+#include <alluvium/utilities/checked_file.h>
 #include <alluvium/utilities/progress.h>
 #include <alluvium/utilities/signals.h>
 #include <alluvium/utilities/timers.h>
@@ -333,14 +333,13 @@ namespace alluvium
       folder.create(communicator, parameters.restart);
     }
     if (speaks)
-      {
-        report_scene(std::cout);
-        prm.print_parameters(folder.file("parameters.prm"), ParameterHandler::OutputStyle::ShortPRM);
-      }
+      report_scene(std::cout);
     open_output();
     if (parameters.restart)
-      read_checkpoint();
-    else
+      read_checkpoint(); // before anything is written: the folder stays as it was if the checkpoint is no good
+    if (speaks)
+      prm.print_parameters(folder.file("parameters.prm"), ParameterHandler::OutputStyle::ShortPRM);
+    if (!parameters.restart)
       {
         observe();
         write_statistics();
@@ -534,6 +533,8 @@ namespace alluvium
     summary->set("run/steps", n_steps);
     summary->set("run/interrupted", interrupted);
     summary->set("run/ranks", Utilities::MPI::n_mpi_processes(communicator));
+    summary->set("domain/lower_m", std::vector<double>{domain.lower()[0], domain.lower()[1]});
+    summary->set("domain/upper_m", std::vector<double>{domain.upper()[0], domain.upper()[1]});
     summary->set("scene/grains", grains.n());
     if (has_fluid)
       {
@@ -582,6 +583,7 @@ namespace alluvium
         // the run that goes on and the one that restarts shall both begin with a fresh preconditioner
         solver.linear_solver.clear();
       }
+    std::string text;
     if (speaks)
       {
         nlohmann::ordered_json state;
@@ -597,7 +599,11 @@ namespace alluvium
         state["counts"] = counts;
         for (const auto &name : Utilities::split_string_list(observer_choice.name()))
           observer_choice.get(name).save(state["observers"][name]);
-        write_atomically(folder_new + "/state.json", state.dump(1));
+        text = state.dump(1);
+      }
+    write_checked_file(communicator, folder_new + "/state", "state", text);
+    if (speaks)
+      {
         std::filesystem::remove_all(final);
         std::filesystem::rename(folder_new, final);
       }
@@ -609,14 +615,15 @@ namespace alluvium
   void Simulation::Implementation::read_checkpoint()
   {
     const std::string from = checkpoint_folder();
-    check_user(std::filesystem::exists(from + "/state.json"),
+    check_user(std::filesystem::is_directory(from),
                "Output/Restart: there is no checkpoint in '" + folder.path() + "'.");
+    const std::string      text = read_checked_file(communicator, from + "/state", "state");
     nlohmann::ordered_json state;
     try
       {
-        state    = nlohmann::ordered_json::parse(std::ifstream(from + "/state.json"));
-        time     = state.at("time");
-        n_steps  = state.at("steps");
+        state       = nlohmann::ordered_json::parse(text);
+        time        = state.at("time");
+        n_steps     = state.at("steps");
         n_pictures  = state.at("pictures");
         grain_files = state.at("grains").get<decltype(grain_files)>();
         counts      = state.at("counts").get<decltype(counts)>();
@@ -631,7 +638,7 @@ namespace alluvium
       }
     catch (const nlohmann::json::exception &)
       {
-        throw UserError("Output/Restart: the checkpoint's '" + from + "/state.json' is corrupt.");
+        throw UserError("Output/Restart: '" + from + "/state' is not as this program writes it: was it made by another version?");
       }
     grains::ContactArchive archive;
     const std::size_t      n = grains.n();

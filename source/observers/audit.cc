@@ -1,5 +1,7 @@
 #include <alluvium/observers/observer.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -64,6 +66,14 @@ namespace alluvium::observers
       {
         summary.set("audit/largest_third_law_defect", third_law);
         summary.set("audit/largest_penetration_over_d", penetration);
+      }
+
+      void save(nlohmann::ordered_json &state) const override { state = {third_law, penetration}; }
+
+      void load(const nlohmann::ordered_json &state) override
+      {
+        third_law   = state.at(0).get<double>();
+        penetration = state.at(1).get<double>();
       }
 
     private:

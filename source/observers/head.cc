@@ -1,5 +1,7 @@
 #include <alluvium/observers/observer.h>
 
+#include <nlohmann/json.hpp>
+
 namespace alluvium::observers
 {
   namespace
@@ -20,6 +22,8 @@ namespace alluvium::observers
         summary.set("head/final_m", last);
         summary.set("head/largest_m", largest);
       }
+      void save(nlohmann::ordered_json &state) const override { state = largest; }
+      void load(const nlohmann::ordered_json &state) override { largest = state.get<double>(); }
 
     private:
       double last = 0., largest = 0.;
