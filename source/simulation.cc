@@ -404,6 +404,7 @@ namespace alluvium
     counts["contact sub-steps halved"] += contact_report.n_halvings;
     counts["contact sub-steps not converged"] += contact_report.n_unconverged;
     counts["linear iterations"] += coupling.report().n_iterations;
+    counts["linear solves above the tolerance"] += coupling.report().n_loose;
   }
 
 
@@ -553,6 +554,9 @@ namespace alluvium
     if (counts["contact sub-steps not converged"] > 0)
       summary->warn(std::to_string(static_cast<long>(counts["contact sub-steps not converged"])) +
                     " contact sub-steps were accepted above the tolerance; see Contacts in the parameters.");
+    if (counts["linear solves above the tolerance"] > 0)
+      summary->warn(std::to_string(static_cast<long>(counts["linear solves above the tolerance"])) +
+                    " linear solves of the fluid stopped above the tolerance, at a relative residual below 1e-5.");
     summary->write();
     if (speaks)
       {

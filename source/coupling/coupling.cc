@@ -124,6 +124,7 @@ namespace alluvium::coupling
     solver->begin_step(boundary_conditions, problem);
     solver->solve();
     last.n_iterations = solver->last_report().n_iterations;
+    last.n_loose      = solver->last_report().loose;
     for (unsigned int sweep = 1; sweep < scheme.n_sweeps(); ++sweep)
       {
         state.latest = evaluate(map, *space, solver->solution());
@@ -133,6 +134,7 @@ namespace alluvium::coupling
           scheme.exchange_terms(state, sweep, exchange);
         });
         last.n_iterations += solver->last_report().n_iterations;
+        last.n_loose += solver->last_report().loose;
       }
     state.latest = evaluate(map, *space, solver->solution());
     collect_forces(state);

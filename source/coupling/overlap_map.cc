@@ -228,9 +228,9 @@ namespace alluvium::coupling
       }
     solid.compress(VectorOperation::add);
 
-    // overfull nodes hand their excess to the nodes of their cells, in proportion to the room there
+    // overfull nodes hand their excess to the nodes of their cells, in proportion to the room there (in few passes; 200 are for crowds)
     double moved = 0.;
-    for (unsigned int pass = 0; pass < 20; ++pass)
+    for (unsigned int pass = 0; pass < 200; ++pass)
       {
         fluid::Vector excess = space->make_nodal_field(), room = space->make_nodal_field(), share = space->make_nodal_field();
         double        total = 0.;
@@ -239,7 +239,8 @@ namespace alluvium::coupling
             const double over       = solid.local_element(i) - volumes.local_element(i);
             const bool   hanging    = volumes.local_element(i) == 0.;
             excess.local_element(i) = hanging ? 0. : std::max(0., over);
-            room.local_element(i)   = hanging ? 0. : std::max(0., -over);
+            // a little also for full nodes, which hand it on: excess must get out of a crowd
+            room.local_element(i) = hanging ? 0. : std::max(0., -over) + 1e-2 * volumes.local_element(i);
             if (over > 1e-13 * volumes.local_element(i))
               total += excess.local_element(i);
           }

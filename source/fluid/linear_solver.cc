@@ -8,12 +8,23 @@
 #include <EpetraExt_MatrixMatrix.h>
 #include <Epetra_CrsMatrix.h>
 
+#include <sstream>
+
 namespace alluvium::fluid
 {
   using namespace dealii;
 
   namespace
   {
+    constexpr double acceptable_residual = 1e-5;
+
+    std::string in_digits(const double x)
+    {
+      std::ostringstream text;
+      text << x;
+      return text.str();
+    }
+
     /** The matrix with its continuity rows scaled, so that one norm measures both equations fairly. */
     struct ScaledMatrix
     {
@@ -150,12 +161,18 @@ namespace alluvium::fluid
         catch (const SolverControl::NoConvergence &)
           {
             // an old preconditioner gets a second chance as a fresh one
-            AssertThrow(!fresh,
+            if (!fresh)
+              {
+                build(matrix);
+                retry = true;
+                continue;
+              }
+            // GMRES stalls where round-off of large cancelling terms is above the tolerance: good enough is told, not hidden
+            report.loose = true;
+            AssertThrow(control.last_value() <= acceptable_residual * scale[0],
                         ExcMessage("The fluid's linear solver has not converged in " + std::to_string(max_iterations) +
-                                   " iterations: relative residual " + std::to_string(control.last_value() / scale[0]) + "."));
-            build(matrix);
-            retry = true;
-            continue;
+                                   " iterations: relative residual " + in_digits(control.last_value() / scale[0]) +
+                                   ", tolerance " + in_digits(tolerance) + "."));
           }
         report.n_iterations = control.last_step();
         report.residual     = control.last_value() / scale[0];

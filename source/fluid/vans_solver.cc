@@ -112,6 +112,9 @@ namespace alluvium::fluid
           linear_solver.solve(assembler.matrix(), residual, scale, space->constraints(), increment);
         report.residual = solve.residual;
         report.n_iterations += solve.n_iterations;
+        report.loose = report.loose || solve.loose;
+        if (solve.loose)
+          attempt = 3; // no better with a second try
         if (solve.n_iterations == 0)
           return;
         assembler.matrix().block(0, 0).vmult(product.block(0), increment.block(0));

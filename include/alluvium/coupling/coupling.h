@@ -17,6 +17,7 @@ namespace alluvium::coupling
     double                momentum_not_received = 0.;        // |sum of G (v^{n+1} - v*)|: see add_grain_response() [N/m]
     std::size_t           n_pieces = 0;
     unsigned int          n_iterations = 0;                  // linear, over all sweeps
+    unsigned int          n_loose = 0;                       // solves that stopped above the tolerance
   };
 
   /**

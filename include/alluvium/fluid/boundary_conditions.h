@@ -27,7 +27,8 @@ namespace alluvium::fluid
       no_slip,
       slip,
       pressure,
-      velocity
+      velocity,
+      natural // no net flux of the mixture, no viscous traction: the ends of a homogeneous suspension in tests
     };
     struct Condition
     {

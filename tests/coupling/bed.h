@@ -1,0 +1,186 @@
+#pragma once
+
+// Beds of discs for the tests of the coupling: cut out of a settled bed, so that they fill a rectangle from end to end.
+#include <alluvium/coupling/coupling.h>
+#include <alluvium/grains/deposit.h>
+
+#include <deal.II/base/function_lib.h>
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/distributed/tria.h>
+#include <deal.II/grid/grid_generator.h>
+
+#include <cmath>
+
+namespace bed
+{
+  using namespace dealii;
+  namespace coupling = alluvium::coupling;
+  namespace fluid    = alluvium::fluid;
+  namespace grains   = alluvium::grains;
+
+  struct Bed
+  {
+    grains::GrainArrays grains;
+    double              width, height, d; // [m]
+  };
+
+  /** @p layers of a settled bed of discs 0.2 to 0.24 mm, @p across grains wide, with packing 0.52 for the fluid. */
+  inline Bed random_bed(const unsigned int seed, const double across = 30., const double layers = 20.)
+  {
+    using Registry = alluvium::Registry<grains::Deposit>;
+    auto             deposit = Registry::entries().at("settled bed").create();
+    ParameterHandler prm;
+    deposit->add_parameters(prm);
+    const double d     = 2.2e-4;
+    const double width = across * d;
+    prm.set("Number of grains", static_cast<long int>(across * (layers + 12.) * 1.06));
+    prm.set("Seed", static_cast<long int>(seed));
+    prm.set("Cache folder", "");
+    const auto seeds = deposit->make({{{0., 0.}}, {{width, 1.}}, {}, 2630., {{0., -9.81}}, "."});
+
+    Bed          b;
+    const double bottom = 4. * d;
+    double       area   = 0.;
+    b.d      = d;
+    b.width  = width;
+    b.height = layers * d;
+    for (const auto &s : seeds)
+      if (s.y > bottom && s.y < bottom + b.height)
+        {
+          auto &g = b.grains;
+          g.resize(g.n() + 1);
+          g.id.back()     = g.n() - 1;
+          g.x.back()      = s.x;
+          g.y.back()      = s.y - bottom;
+          g.radius.back() = s.radius;
+          area += numbers::PI * s.radius * s.radius;
+        }
+    const double factor = std::sqrt(0.52 * width * b.height / area);
+    for (std::size_t i = 0; i < b.grains.n(); ++i)
+      {
+        b.grains.fluid_radius[i] = factor * b.grains.radius[i];
+        b.grains.mass[i]         = 2630. * numbers::PI * b.grains.radius[i] * b.grains.radius[i];
+        b.grains.x0[i]           = b.grains.x[i];
+        b.grains.y0[i]           = b.grains.y[i];
+      }
+    return b;
+  }
+
+  /** What a test may vary. */
+  struct Settings
+  {
+    double      h_over_d = 1.;
+    double      dt       = 1e-3;
+    double      filter   = 2.; // 0: the grain
+    bool        moments = true, lumped = true, triangles = false;
+    std::string drag = "disc", scheme = "semi-implicit per grain";
+  };
+
+  /** A coupled fluid on a uniform mesh over a rectangle: slip sides, pressures below and above. */
+  class Channel
+  {
+  public:
+    using Kind = fluid::BoundaryConditions<2>::Kind;
+
+    Channel(const double width, const double height, const double h, const Settings &s, const double pressure_below)
+      : solver(space)
+      , coupling(space, solver)
+    {
+      const std::vector<unsigned int> n = {static_cast<unsigned int>(std::max(1., std::round(width / h))),
+                                           static_cast<unsigned int>(std::max(1., std::round(height / h)))};
+      if (s.triangles)
+        {
+          Triangulation<2> quads;
+          GridGenerator::subdivided_hyper_rectangle(quads, n, Point<2>(), Point<2>(width, height), true);
+          GridGenerator::convert_hypercube_to_simplex_mesh(quads, tria_simplex);
+        }
+      else
+        GridGenerator::subdivided_hyper_rectangle(tria, n, Point<2>(), Point<2>(width, height), true);
+      const auto constant = [](const double p) { return std::make_shared<Functions::ConstantFunction<2>>(p); };
+      bc.set(0, {Kind::slip, "left", nullptr});
+      bc.set(1, {Kind::slip, "right", nullptr});
+      bc.set(2, {Kind::pressure, "bottom", constant(pressure_below)});
+      bc.set(3, {Kind::pressure, "top", constant(0.)});
+      settings = s;
+      initialize();
+    }
+
+    void initialize()
+    {
+      space.attach(settings.triangles ? static_cast<const Triangulation<2> &>(tria_simplex) : tria);
+      space.reinit(bc);
+      ParameterHandler prm;
+      coupling.add_parameters(prm);
+      prm.enter_subsection("Coupling");
+      prm.set("Drag law", settings.drag);
+      prm.set("Time scheme", settings.scheme);
+      prm.leave_subsection();
+      coupling.parse_parameters();
+      coupling.settings.filter_radius = settings.filter;
+      coupling.settings.rule =
+        settings.moments ? coupling::OverlapSettings::Rule::moments : coupling::OverlapSettings::Rule::centroid;
+      solver.discretisation.lumped_drag = settings.lumped;
+      solver.reinit();
+      solver.choose_datum(bc);
+      coupling.reinit();
+    }
+
+    void step(const grains::GrainArrays &g, const bool fixed)
+    {
+      const std::vector<std::uint8_t> touched(g.n(), 0);
+      solver.accept();
+      coupling.step(bc, g, touched, settings.dt, fixed, loads);
+    }
+
+    Settings                                   settings;
+    parallel::distributed::Triangulation<2>    tria{MPI_COMM_WORLD};
+    Triangulation<2>                           tria_simplex;
+    fluid::BoundaryConditions<2>               bc;
+    fluid::FluidSpace<2>                       space;
+    fluid::VansSolver<2>                       solver;
+    coupling::Coupling                         coupling;
+    grains::GrainLoads                         loads;
+  };
+
+  /** Superficial velocity [m/s] of the homogenised law under pressure gradient @p gradient [Pa/m]. */
+  inline double darcy_velocity(const Bed &bed, const coupling::DragLaw &law, const double gradient)
+  {
+    const double eps = 0.48;
+    double       low = 0., high = 1.;
+    for (unsigned int k = 0; k < 100; ++k)
+      {
+        const double u    = 0.5 * (low + high);
+        double       drag = 0.;
+        for (const double r : bed.grains.fluid_radius)
+          drag += numbers::PI * r * r * law.gamma({eps, u, 2. * r, 1000., 1e-3}) * u;
+        (drag / (bed.width * bed.height) > eps * gradient ? high : low) = u;
+      }
+    return eps * low;
+  }
+
+  struct Flux
+  {
+    double over_darcy, u_max_over_superficial, third_law, imbalance;
+  };
+
+  /** Stationary flux through the fixed @p bed under a head of 0.75 of its height. */
+  inline Flux fixed_bed_flux(const Bed &bed, const Settings &s)
+  {
+    const double pressure = 0.75 * 1000. * 9.81 * bed.height;
+    Channel      channel(bed.width, bed.height, s.h_over_d * bed.d, s, pressure);
+    double       flux = 0., last = 1.;
+    for (unsigned int k = 0; k < 80 && (k < 4 || std::abs(flux - last) > 1e-6 * std::abs(flux)); ++k)
+      {
+        channel.step(bed.grains, true);
+        last = flux;
+        flux = channel.solver.flux(3);
+      }
+    channel.coupling.audit();
+    const auto  &report = channel.coupling.report();
+    const double exact  = bed.width * darcy_velocity(bed, channel.coupling.drag_law(), pressure / bed.height);
+    return {flux / exact,
+            channel.solver.solution().block(0).linfty_norm() * bed.width / exact,
+            std::abs(report.force_on_grains[1] + report.force_on_fluid[1]) / report.force_scale,
+            (flux + channel.solver.flux(2)) / flux};
+  }
+} // namespace bed
