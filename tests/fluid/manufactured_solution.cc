@@ -177,7 +177,7 @@ namespace
     alluvium::fluid::BlockVector start = space.make_field();
     VectorTools::interpolate(space.mapping(), space.dof_handler(), Exact(), start);
     solver.set_solution(start);
-    for (unsigned int k = 0; k < 40; ++k)
+    for (unsigned int k = 0; k < 25; ++k)
       {
         solver.begin_step(bc, problem);
         solver.solve();
@@ -258,7 +258,7 @@ TEST(ManufacturedSolution, QuadrilateralsWithHangingNodes)
   for (const double gamma : {1., 100.})
     {
       std::vector<Errors> errors;
-      for (unsigned int level = 3; level < 7; ++level)
+      for (unsigned int level = 3; level < 6; ++level)
         {
           parallel::distributed::Triangulation<dim> tria(MPI_COMM_WORLD);
           GridGenerator::hyper_cube(tria, 0., 1., true);
@@ -275,12 +275,17 @@ TEST(ManufacturedSolution, QuadrilateralsWithHangingNodes)
 
 TEST(ManufacturedSolution, Triangles)
 {
-  std::vector<Errors> errors;
-  for (unsigned int n = 8; n < 100; n *= 2)
+  for (const double gamma : {1., 10., 100.})
     {
-      Triangulation<dim> tria;
-      GridGenerator::subdivided_hyper_cube_with_simplices(tria, n);
-      errors.push_back(solve(tria, 10., false));
+      std::vector<Errors> errors;
+      for (unsigned int n = 4; n < 40; n *= 2)
+        {
+          // eight triangles to a square: no direction is preferred
+          Triangulation<dim> quads, tria;
+          GridGenerator::subdivided_hyper_cube(quads, n);
+          GridGenerator::convert_hypercube_to_simplex_mesh(quads, tria);
+          errors.push_back(solve(tria, gamma, false));
+        }
+      check_orders("triangles gamma " + std::to_string(int(gamma)), errors);
     }
-  check_orders("triangles", errors);
 }
