@@ -23,6 +23,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/parameter_handler.h>
+#include <deal.II/grid/reference_cell.h>
 #include <deal.II/grid/tria.h>
 
 #include <nlohmann/json.hpp>
@@ -160,9 +161,7 @@ namespace alluvium
     std::unique_ptr<observers::FluidView>                           fluid_view;
     std::unique_ptr<observers::Statistics>                          statistics;
     std::unique_ptr<observers::Summary>                             summary;
-    std::unique_ptr<observers::FluidOutput>                         fluid_output;
-    std::vector<std::pair<double, std::string>>                     grain_files;
-    unsigned int                                                    n_pictures = 0;
+    std::unique_ptr<observers::FieldSeries>                         fluid_pictures, grain_pictures;
     Timers                                                          timers;
     std::map<std::string, double>                                   counts; // steps, sweeps, iterations ...
   };
@@ -480,8 +479,9 @@ namespace alluvium
   {
     statistics = std::make_unique<observers::Statistics>(folder.file("statistics.csv"), communicator, parameters.precision);
     summary    = std::make_unique<observers::Summary>(folder.file("summary.json"), communicator);
-    if (has_fluid)
-      fluid_output = std::make_unique<observers::FluidOutput>(folder.path(), parameters.format == "hdf5");
+    const bool hdf5 = parameters.format == "hdf5";
+    grain_pictures  = std::make_unique<observers::FieldSeries>(folder.path(), "grains", hdf5, communicator);
+    fluid_pictures  = std::make_unique<observers::FieldSeries>(folder.path(), "fluid", hdf5, communicator);
     statistics->add_column("time_s");
     for (auto *observer : observing)
       observer->add_columns(snapshot(), *statistics);
@@ -504,24 +504,16 @@ namespace alluvium
   {
     if (parameters.output_interval == 0.)
       return;
-    const auto        timer = timers.scope("pictures");
-    const std::string name  = "grains-" + Utilities::int_to_string(n_pictures, 5) + ".vtu";
-    store.write_vtu(folder.file(name));
-    grain_files.emplace_back(time, name);
-    if (speaks)
-      {
-        std::ofstream pvd(folder.file("grains.pvd"));
-        DataOutBase::write_pvd_record(pvd, grain_files);
-      }
+    const auto timer = timers.scope("pictures");
+    store.output([&](auto &data) { grain_pictures->write<0>(data, ReferenceCells::Vertex, time); });
     if (has_fluid)
-      fluid_output->write(space,
-                          solver.solution(),
-                          coupling.void_fraction(),
-                          solver.properties.density * solver.gravity,
-                          solver.datum(),
-                          time,
-                          n_pictures);
-    ++n_pictures;
+      observers::write_fluid(*fluid_pictures,
+                             space,
+                             solver.solution(),
+                             coupling.void_fraction(),
+                             solver.properties.density * solver.gravity,
+                             solver.datum(),
+                             time);
   }
 
 
@@ -595,13 +587,9 @@ namespace alluvium
         nlohmann::ordered_json state;
         state["time"]     = time;
         state["steps"]    = n_steps;
-        state["pictures"] = n_pictures;
-        state["grains"]   = grain_files;
-        if (fluid_output)
-          {
-            state["fluid"] = fluid_output->written();
-            state["datum"] = solver.datum();
-          }
+        state["grain pictures"] = grain_pictures->state();
+        state["fluid pictures"] = fluid_pictures->state();
+        state["datum"]          = solver.datum();
         state["counts"] = counts;
         for (const auto &name : Utilities::split_string_list(observer_choice.name()))
           observer_choice.get(name).save(state["observers"][name]);
@@ -630,14 +618,10 @@ namespace alluvium
         state       = nlohmann::ordered_json::parse(text);
         time        = state.at("time");
         n_steps     = state.at("steps");
-        n_pictures  = state.at("pictures");
-        grain_files = state.at("grains").get<decltype(grain_files)>();
+        grain_pictures->resume(state.at("grain pictures"));
+        fluid_pictures->resume(state.at("fluid pictures"));
+        solver.set_datum(state.at("datum"));
         counts      = state.at("counts").get<decltype(counts)>();
-        if (fluid_output)
-          {
-            fluid_output->resume(state.at("fluid").get<std::vector<std::pair<double, std::string>>>(), time);
-            solver.set_datum(state.at("datum"));
-          }
         for (const auto &name : Utilities::split_string_list(observer_choice.name()))
           if (!state.at("observers").at(name).is_null())
             observer_choice.get(name).load(state.at("observers").at(name));

@@ -389,14 +389,23 @@ namespace alluvium::grains
   }
 
 
-  void GrainStore::write_vtu(const std::string &file_name) const
+  void GrainStore::output(const std::function<void(DataOutInterface<0, 2> &)> &use) const
   {
     AssertThrow(implementation->particles, ExcNotInitialized());
-    GrainOutput           output(*implementation->particles);
-    DataOutBase::VtkFlags flags;
-    flags.compression_level = decltype(flags.compression_level)::best_speed;
-    output.set_flags(flags);
-    output.write_vtu_in_parallel(file_name, implementation->communicator);
+    GrainOutput output(*implementation->particles);
+    use(output);
+  }
+
+
+
+  void GrainStore::write_vtu(const std::string &file_name) const
+  {
+    output([&](DataOutInterface<0, 2> &data) {
+      DataOutBase::VtkFlags flags;
+      flags.compression_level = decltype(flags.compression_level)::best_speed;
+      data.set_flags(flags);
+      data.write_vtu_in_parallel(file_name, implementation->communicator);
+    });
   }
 
 

@@ -5,11 +5,14 @@
 #include <mpi.h>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <string>
 
 namespace dealii
 {
+  template <int, int>
+  class DataOutInterface;
   namespace Particles
   {
     template <int, int>
@@ -65,9 +68,12 @@ namespace alluvium::grains
     std::size_t n_rescued() const;
 
     /**
-     * Write the grains as one compressed .vtu for ParaView with fields id, radius [m], displacement since t = 0 [m],
-     * velocity [m/s], angular_velocity [rad/s], contact_force [N/m]. Collective.
+     * Give @p use the local grains as points for output, with fields id, radius [m], displacement since t = 0 [m], velocity
+     * [m/s], angular_velocity [rad/s], contact_force [N/m]. Collective if @p use is.
      */
+    void output(const std::function<void(dealii::DataOutInterface<0, 2> &)> &use) const;
+
+    /** Write them as one compressed .vtu for ParaView. Collective. */
     void write_vtu(const std::string &file_name) const;
 
     const dealii::Particles::ParticleHandler<2, 2> &particles() const;
