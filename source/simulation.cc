@@ -20,14 +20,15 @@
 #include <alluvium/utilities/signals.h>
 #include <alluvium/utilities/timers.h>
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/data_out_base.h>
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/grid/reference_cell.h>
 #include <deal.II/grid/tria.h>
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -44,24 +45,32 @@ namespace alluvium
     /** The parameters of the loop itself. */
     struct RunParameters
     {
-      double       end_time = 1., time_step = 1e-3, output_interval = 0.05, statistics_interval = 0.01, checkpoint_interval = 0.;
+      double end_time = 1., time_step = 1e-3, output_interval = 0.05, statistics_interval = 0.01,
+             checkpoint_interval = 0.;
       std::string  gravity_text = "0, -9.81", model = "volume-averaged", format = "vtu", progress = "automatic";
       bool         restart   = false;
       unsigned int precision = 10;
 
       void add_parameters(ParameterHandler &prm)
       {
-        prm.add_parameter("Gravity", gravity_text, "Acceleration of gravity, x and y [m/s^2].", Patterns::List(Patterns::Double(), 2, 2));
+        prm.add_parameter("Gravity",
+                          gravity_text,
+                          "Acceleration of gravity, x and y [m/s^2].",
+                          Patterns::List(Patterns::Double(), 2, 2));
         prm.enter_subsection("Time");
         prm.add_parameter("End time", end_time, "When the run ends [s].", Patterns::Double(0.));
-        prm.add_parameter("Time step", time_step, "Step of the fluid and of the coupling [s]; contacts take sub-steps.", Patterns::Double(1e-12));
+        prm.add_parameter("Time step",
+                          time_step,
+                          "Step of the fluid and of the coupling [s]; contacts take sub-steps.",
+                          Patterns::Double(1e-12));
         prm.leave_subsection();
         prm.enter_subsection("Fluid");
-        prm.add_parameter("Model",
-                          model,
-                          "`volume-averaged`: the volume-averaged Navier-Stokes equations between and around the grains; `none`: dry "
-                          "grains, for which no mesh and no matrix is made.",
-                          Patterns::Selection("volume-averaged|none"));
+        prm.add_parameter(
+          "Model",
+          model,
+          "`volume-averaged`: the volume-averaged Navier-Stokes equations between and around the grains; `none`: dry "
+          "grains, for which no mesh and no matrix is made.",
+          Patterns::Selection("volume-averaged|none"));
         prm.leave_subsection();
         prm.enter_subsection("Output");
         prm.add_parameter("Interval of pictures",
@@ -76,10 +85,14 @@ namespace alluvium
                           checkpoint_interval,
                           "Time between two checkpoints [s]; 0: only when the run is interrupted.",
                           Patterns::Double(0.));
-        prm.add_parameter("Format", format, "Files of the fluid's fields: .vtu, or HDF5 with XDMF for big runs.", Patterns::Selection("vtu|hdf5"));
+        prm.add_parameter("Format",
+                          format,
+                          "Files of the fluid's fields: .vtu, or HDF5 with XDMF for big runs.",
+                          Patterns::Selection("vtu|hdf5"));
         prm.add_parameter("Digits", precision, "Significant digits in statistics.csv.", Patterns::Integer(3, 17));
         prm.add_parameter("Restart", restart, "Continue from the checkpoint in the output folder.");
-        prm.add_parameter("Progress", progress, "How to show progress.", Patterns::Selection("automatic|bar|lines|silent"));
+        prm.add_parameter(
+          "Progress", progress, "How to show progress.", Patterns::Selection("automatic|bar|lines|silent"));
         prm.leave_subsection();
       }
 
@@ -97,7 +110,6 @@ namespace alluvium
       return interval == 0. || std::floor((time + eps) / interval) > std::floor((time - dt + eps) / interval);
     }
   } // namespace
-
 
 
   class Simulation::Implementation
@@ -131,41 +143,40 @@ namespace alluvium
     RunParameters  parameters;
 
     // the rooms; those of the fluid stay empty in a dry scene
-    mesh::Domain<dim>                   domain;
-    mesh::Adaptivity<dim>               adaptivity;
-    std::unique_ptr<Triangulation<dim>> triangulation;
-    fluid::BoundaryConditions<dim>      boundary_conditions;
-    fluid::FluidSpace<dim>              space;
-    fluid::VansSolver<dim>              solver;
-    coupling::Coupling                  coupling;
-    scene::GrainSetup                   grain_setup;
-    grains::GrainStore                  store;
-    grains::ContactStepper              contacts;
-    PluginChoice<observers::Observer>   observer_choice;
+    mesh::Domain<dim>                         domain;
+    mesh::Adaptivity<dim>                     adaptivity;
+    std::unique_ptr<Triangulation<dim>>       triangulation;
+    fluid::BoundaryConditions<dim>            boundary_conditions;
+    fluid::FluidSpace<dim>                    space;
+    fluid::VansSolver<dim>                    solver;
+    coupling::Coupling                        coupling;
+    scene::GrainSetup                         grain_setup;
+    grains::GrainStore                        store;
+    grains::ContactStepper                    contacts;
+    PluginChoice<observers::Observer>         observer_choice;
     std::unique_ptr<mesh::FieldTransfer<dim>> transfer;
 
     // the state
-    bool                  has_fluid = true, grains_move = true;
-    std::array<double, 2> gravity{};
-    grains::GrainArrays   grains;
-    grains::GrainLoads    loads;
+    bool                      has_fluid = true, grains_move = true;
+    std::array<double, 2>     gravity{};
+    grains::GrainArrays       grains;
+    grains::GrainLoads        loads;
     std::vector<std::uint8_t> touched; // by others in the last step
-    grains::ContactReport contact_report;
-    mesh::BedFaces        initial_bed;
-    double                time = 0., coarse_cell_size = 0.;
-    unsigned int          n_steps = 0;
+    grains::ContactReport     contact_report;
+    mesh::BedFaces            initial_bed;
+    double                    time = 0., coarse_cell_size = 0.;
+    unsigned int              n_steps = 0;
 
     // the output
-    observers::OutputFolder                                         folder;
-    std::vector<observers::Observer *>                              observing;
-    std::unique_ptr<observers::FluidView>                           fluid_view;
-    std::unique_ptr<observers::Statistics>                          statistics;
-    std::unique_ptr<observers::Summary>                             summary;
-    std::unique_ptr<observers::FieldSeries>                         fluid_pictures, grain_pictures;
-    Timers                                                          timers;
-    std::map<std::string, double>                                   counts; // steps, sweeps, iterations ...
+    observers::OutputFolder                 folder;
+    std::vector<observers::Observer *>      observing;
+    std::unique_ptr<observers::FluidView>   fluid_view;
+    std::unique_ptr<observers::Statistics>  statistics;
+    std::unique_ptr<observers::Summary>     summary;
+    std::unique_ptr<observers::FieldSeries> fluid_pictures, grain_pictures;
+    Timers                                  timers;
+    std::map<std::string, double>           counts; // steps, sweeps, iterations ...
   };
-
 
 
   Simulation::Implementation::Implementation(MPI_Comm communicator)
@@ -175,7 +186,6 @@ namespace alluvium
     , coupling(space, solver)
     , store(communicator)
   {}
-
 
 
   void Simulation::Implementation::add_parameters(ParameterHandler &prm)
@@ -192,11 +202,13 @@ namespace alluvium
     prm.leave_subsection();
     prm.enter_subsection("Output");
     folder.add_parameters(prm);
-    observer_choice.add_parameters(
-      prm, "Observers", "head, motion, support, flux, bed, audit", "What to measure; those that a scene gives nothing to are left out.", true);
+    observer_choice.add_parameters(prm,
+                                   "Observers",
+                                   "head, motion, support, flux, bed, audit",
+                                   "What to measure; those that a scene gives nothing to are left out.",
+                                   true);
     prm.leave_subsection();
   }
-
 
 
   void Simulation::Implementation::build_scene(const std::string &directory)
@@ -211,10 +223,11 @@ namespace alluvium
     domain.initialize(communicator, directory);
     const auto walls = grain_setup.walls(domain);
     contacts.set_walls(walls);
-    grains = grain_setup.make(communicator, domain, walls, gravity, directory);
-    const std::array<double, 2> lower = {{domain.lower()[0], domain.lower()[1]}}, upper = {{domain.upper()[0], domain.upper()[1]}};
-    const double largest = 2. * *std::max_element(grains.radius.begin(), grains.radius.end());
-    initial_bed          = mesh::find_bed_faces(grains, lower[0], upper[0]);
+    grains                            = grain_setup.make(communicator, domain, walls, gravity, directory);
+    const std::array<double, 2> lower = {{domain.lower()[0], domain.lower()[1]}},
+                                upper = {{domain.upper()[0], domain.upper()[1]}};
+    const double largest              = 2. * *std::max_element(grains.radius.begin(), grains.radius.end());
+    initial_bed                       = mesh::find_bed_faces(grains, lower[0], upper[0]);
     if (has_fluid)
       {
         const auto context = mesh::make_refinement_context(grains, lower[0], upper[0]);
@@ -239,7 +252,8 @@ namespace alluvium
         solver.choose_datum(boundary_conditions);
         coupling.reinit();
         coupling.update_void_fraction(grains);
-        fluid_view = std::make_unique<observers::FluidView>(observers::FluidView{space, solver, boundary_conditions, coupling});
+        fluid_view =
+          std::make_unique<observers::FluidView>(observers::FluidView{space, solver, boundary_conditions, coupling});
       }
     touched.assign(grains.n(), 0);
     store.initialize(grains, lower, upper, contacts.settings().skin * largest);
@@ -254,7 +268,6 @@ namespace alluvium
   }
 
 
-
   void Simulation::Implementation::report_scene(std::ostream &out) const
   {
     const auto line = [&](const std::string &what, const std::string &text) {
@@ -266,30 +279,38 @@ namespace alluvium
       return text.str();
     };
     const double d = mesh::mean_diameter(grains);
-    line("grains", std::to_string(grains.n()) + " discs, mean diameter " + number(d) + " m, fluid radius " +
-                     number(grain_setup.radius_factor()) + " of the contact radius");
+    line("grains",
+         std::to_string(grains.n()) + " discs, mean diameter " + number(d) + " m, fluid radius " +
+           number(grain_setup.radius_factor()) + " of the contact radius");
     if (!initial_bed.empty())
       line("bed", number(initial_bed.bottom()) + " m to " + number(initial_bed.top()) + " m");
     if (has_fluid)
       {
-        line("fluid", "volume-averaged Navier-Stokes, " + std::to_string(triangulation->n_global_active_cells()) + " cells, " +
-                        std::to_string(space.n_dofs()) + " unknowns" +
-                        (solver.discretisation.convection ? "" : "; without convection, as asked"));
+        line("fluid",
+             "volume-averaged Navier-Stokes, " + std::to_string(triangulation->n_global_active_cells()) + " cells, " +
+               std::to_string(space.n_dofs()) + " unknowns" +
+               (solver.discretisation.convection ? "" : "; without convection, as asked"));
         const double tau = solver.properties.viscosity > 0. ? d * d / solver.properties.viscosity : 0.;
-        line("coupling", std::to_string(coupling.report().n_pieces) + " pieces of grains, void fraction " +
-                           number(coupling.report().eps_min) + " to " + number(coupling.report().eps_max) + ", rho d^2/eta " +
-                           number(tau * solver.properties.density) + " s");
+        line("coupling",
+             std::to_string(coupling.report().n_pieces) + " pieces of grains, void fraction " +
+               number(coupling.report().eps_min) + " to " + number(coupling.report().eps_max) + ", rho d^2/eta " +
+               number(tau * solver.properties.density) + " s");
       }
     else
       line("fluid", "left out (Fluid/Model = none): no mesh, no matrices");
-    line("contacts", grains_move ? std::to_string(contacts.walls().size()) + " walls" : "left out: all grains are fixed");
-    std::string names;
+    line("contacts",
+         grains_move ? std::to_string(contacts.walls().size()) + " walls" : "left out: all grains are fixed");
+    std::string names, idle;
     for (const auto &name : Utilities::split_string_list(observer_choice.name()))
-      names += (names.empty() ? "" : ", ") + name;
+      {
+        const bool   works = std::count(observing.begin(), observing.end(), &observer_choice.get(name)) > 0;
+        std::string &list  = works ? names : idle;
+        list += (list.empty() ? "" : ", ") + name;
+      }
+    names += idle.empty() ? "" : "; left out, with nothing to measure here: " + idle;
     line("observers", names);
     out << std::flush;
   }
-
 
 
   double Simulation::Implementation::head() const
@@ -306,7 +327,6 @@ namespace alluvium
   }
 
 
-
   observers::Snapshot Simulation::Implementation::snapshot() const
   {
     return {time,
@@ -321,7 +341,6 @@ namespace alluvium
             fluid_view.get(),
             communicator};
   }
-
 
 
   void Simulation::Implementation::run(const ParameterHandler &prm, const std::string &directory)
@@ -345,12 +364,12 @@ namespace alluvium
         write_pictures();
       }
 
-    const Progress::Style style = parameters.progress == "bar"    ? Progress::Style::bar :
-                                  parameters.progress == "lines"  ? Progress::Style::lines :
-                                  parameters.progress == "silent" ? Progress::Style::silent :
-                                                                    Progress::Style::automatic;
-    Progress progress(communicator, time, parameters.end_time, style, std::cout);
-    bool     stopped = false;
+    const Progress::Style style = parameters.progress == "bar"      ? Progress::Style::bar
+                                  : parameters.progress == "lines"  ? Progress::Style::lines
+                                  : parameters.progress == "silent" ? Progress::Style::silent
+                                                                    : Progress::Style::automatic;
+    Progress              progress(communicator, time, parameters.end_time, style, std::cout);
+    bool                  stopped = false;
     while (!stopped && time < parameters.end_time - 1e-6 * parameters.time_step)
       {
         step();
@@ -360,14 +379,14 @@ namespace alluvium
         if (parameters.output_interval > 0. && is_due(time, parameters.time_step, parameters.output_interval))
           write_pictures();
         stopped = stop_requested(communicator);
-        if (stopped || (parameters.checkpoint_interval > 0. && is_due(time, parameters.time_step, parameters.checkpoint_interval)))
+        if (stopped ||
+            (parameters.checkpoint_interval > 0. && is_due(time, parameters.time_step, parameters.checkpoint_interval)))
           write_checkpoint();
         progress.update(n_steps, time, parameters.time_step);
       }
     progress.finish();
     conclude(stopped);
   }
-
 
 
   /** One step: the order of the paper's section 2.3. */
@@ -407,7 +426,6 @@ namespace alluvium
   }
 
 
-
   void Simulation::Implementation::load_by_gravity()
   {
     loads.reset(grains.n());
@@ -419,10 +437,9 @@ namespace alluvium
   }
 
 
-
   /**
-   * The first prediction needs the contact forces at rest: without them the bed would "fall" in it. They come from a step of the
-   * contacts under the grains' reduced weight, whose motion is thrown away.
+   * The first prediction needs the contact forces at rest: without them the bed would "fall" in it. They come from a
+   * step of the contacts under the grains' reduced weight, whose motion is thrown away.
    */
   void Simulation::Implementation::find_initial_contact_forces()
   {
@@ -430,7 +447,8 @@ namespace alluvium
     if (has_fluid)
       for (std::size_t i = 0; i < grains.n(); ++i)
         {
-          const double displaced = solver.properties.density * numbers::PI * grains.fluid_radius[i] * grains.fluid_radius[i];
+          const double displaced =
+            solver.properties.density * numbers::PI * grains.fluid_radius[i] * grains.fluid_radius[i];
           loads.fx[i] -= displaced * gravity[0];
           loads.fy[i] -= displaced * gravity[1];
         }
@@ -440,7 +458,6 @@ namespace alluvium
     grains.fcx                = trial.fcx;
     grains.fcy                = trial.fcy;
   }
-
 
 
   void Simulation::Implementation::adapt_mesh()
@@ -463,7 +480,6 @@ namespace alluvium
   }
 
 
-
   void Simulation::Implementation::observe()
   {
     const auto timer = timers.scope("observers");
@@ -474,11 +490,11 @@ namespace alluvium
   }
 
 
-
   void Simulation::Implementation::open_output()
   {
-    statistics = std::make_unique<observers::Statistics>(folder.file("statistics.csv"), communicator, parameters.precision);
-    summary    = std::make_unique<observers::Summary>(folder.file("summary.json"), communicator);
+    statistics =
+      std::make_unique<observers::Statistics>(folder.file("statistics.csv"), communicator, parameters.precision);
+    summary         = std::make_unique<observers::Summary>(folder.file("summary.json"), communicator);
     const bool hdf5 = parameters.format == "hdf5";
     grain_pictures  = std::make_unique<observers::FieldSeries>(folder.path(), "grains", hdf5, communicator);
     fluid_pictures  = std::make_unique<observers::FieldSeries>(folder.path(), "fluid", hdf5, communicator);
@@ -486,7 +502,6 @@ namespace alluvium
     for (auto *observer : observing)
       observer->add_columns(snapshot(), *statistics);
   }
-
 
 
   void Simulation::Implementation::write_statistics()
@@ -497,7 +512,6 @@ namespace alluvium
       observer->write(snapshot(), *statistics);
     statistics->write_row();
   }
-
 
 
   void Simulation::Implementation::write_pictures()
@@ -515,7 +529,6 @@ namespace alluvium
                              solver.datum(),
                              time);
   }
-
 
 
   void Simulation::Implementation::conclude(const bool interrupted)
@@ -562,7 +575,6 @@ namespace alluvium
   }
 
 
-
   void Simulation::Implementation::write_checkpoint()
   {
     const auto timer = timers.scope("checkpoints");
@@ -577,7 +589,8 @@ namespace alluvium
     grains::save_grains(communicator, folder_new + "/grains", grains, contacts.archive());
     if (has_fluid)
       {
-        mesh::FluidCheckpoint<dim>(folder_new).save(space.dof_handler(), {&solver.solution()}, space.nodal_dof_handler(), {});
+        mesh::FluidCheckpoint<dim>(folder_new)
+          .save(space.dof_handler(), {&solver.solution()}, space.nodal_dof_handler(), {});
         // the run that goes on and the one that restarts shall both begin with a fresh preconditioner
         solver.linear_solver.clear();
       }
@@ -585,12 +598,12 @@ namespace alluvium
     if (speaks)
       {
         nlohmann::ordered_json state;
-        state["time"]     = time;
-        state["steps"]    = n_steps;
+        state["time"]           = time;
+        state["steps"]          = n_steps;
         state["grain pictures"] = grain_pictures->state();
         state["fluid pictures"] = fluid_pictures->state();
         state["datum"]          = solver.datum();
-        state["counts"] = counts;
+        state["counts"]         = counts;
         for (const auto &name : Utilities::split_string_list(observer_choice.name()))
           observer_choice.get(name).save(state["observers"][name]);
         text = state.dump(1);
@@ -605,7 +618,6 @@ namespace alluvium
   }
 
 
-
   void Simulation::Implementation::read_checkpoint()
   {
     const std::string from = checkpoint_folder();
@@ -615,26 +627,28 @@ namespace alluvium
     nlohmann::ordered_json state;
     try
       {
-        state       = nlohmann::ordered_json::parse(text);
-        time        = state.at("time");
-        n_steps     = state.at("steps");
+        state   = nlohmann::ordered_json::parse(text);
+        time    = state.at("time");
+        n_steps = state.at("steps");
         grain_pictures->resume(state.at("grain pictures"));
         fluid_pictures->resume(state.at("fluid pictures"));
         solver.set_datum(state.at("datum"));
-        counts      = state.at("counts").get<decltype(counts)>();
+        counts = state.at("counts").get<decltype(counts)>();
         for (const auto &name : Utilities::split_string_list(observer_choice.name()))
           if (!state.at("observers").at(name).is_null())
             observer_choice.get(name).load(state.at("observers").at(name));
       }
     catch (const nlohmann::json::exception &)
       {
-        throw UserError("Output/Restart: '" + from + "/state' is not as this program writes it: was it made by another version?");
+        throw UserError("Output/Restart: '" + from +
+                        "/state' is not as this program writes it: was it made by another version?");
       }
     grains::ContactArchive archive;
     const std::size_t      n = grains.n();
     grains::load_grains(communicator, from + "/grains", grains, archive);
     check_user(grains.n() == n,
-               "Output/Restart: the checkpoint has " + std::to_string(grains.n()) + " grains, the scene " + std::to_string(n) + ".");
+               "Output/Restart: the checkpoint has " + std::to_string(grains.n()) + " grains, the scene " +
+                 std::to_string(n) + ".");
     contacts.set_archive(archive);
     for (std::size_t i = 0; i < n; ++i)
       touched[i] = grains.fcx[i] != 0. || grains.fcy[i] != 0.;
@@ -658,15 +672,12 @@ namespace alluvium
   }
 
 
-
   Simulation::Simulation(MPI_Comm communicator)
     : implementation(std::make_unique<Implementation>(communicator))
   {}
 
 
-
   Simulation::~Simulation() = default;
-
 
 
   std::vector<std::pair<std::string, std::string>> Simulation::paper_method()
@@ -679,12 +690,10 @@ namespace alluvium
   }
 
 
-
   void Simulation::add_parameters(ParameterHandler &prm)
   {
     implementation->add_parameters(prm);
   }
-
 
 
   void Simulation::check(const std::string &parameter_directory)
@@ -693,7 +702,6 @@ namespace alluvium
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       implementation->report_scene(std::cout);
   }
-
 
 
   void Simulation::run(const ParameterHandler &prm, const std::string &parameter_directory)

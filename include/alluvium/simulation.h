@@ -15,8 +15,8 @@ namespace dealii
 namespace alluvium
 {
   /**
-   * A whole run: fluid, grains and what couples them, in the order that step() shows. Life cycle: construct, add_parameters(),
-   * let the parameter handler parse, then check() or run().
+   * A whole run: fluid, grains and what couples them, in the order that step() shows. Life cycle: construct,
+   * add_parameters(), let the parameter handler parse, then check() or run().
    */
   class Simulation
   {
@@ -34,7 +34,8 @@ namespace alluvium
     void check(const std::string &parameter_directory);
 
     /**
-     * Run to the end time, or until a SIGINT or SIGTERM ends it after a step with outputs closed and a checkpoint written.
+     * Run to the end time, or until a SIGINT or SIGTERM ends it after a step with outputs closed and a checkpoint
+     * written.
      * @p prm is written to the output folder as used.
      */
     void run(const dealii::ParameterHandler &prm, const std::string &parameter_directory);

@@ -14,25 +14,28 @@ namespace alluvium::coupling
   {}
 
 
-
   void Coupling::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Coupling");
-    prm.add_parameter("Filter radius",
-                      filter_text,
-                      "Radius of the disc over which a grain gives to and reads from the fluid: `grain` (its own fluid radius, as in "
-                      "the paper) or a multiple of its contact diameter, e.g. `2 d`. On cells finer than about two grain diameters only "
-                      "1.5 d to 2 d give the right flux through a bed.");
-    prm.add_parameter("Overlap rule",
-                      rule_text,
-                      "How shape functions are integrated over the pieces of a grain: `centroid` (the paper: at the piece's centroid, "
-                      "exact for linear functions) or `moments` (with second moments: exact for bilinear functions on parallelograms).",
-                      Patterns::Selection("centroid|moments"));
-    prm.add_parameter("Minimal void fraction in the drag",
-                      eps_floor,
-                      "Drag laws diverge as the void fraction goes to zero, which happens inside grains on fine meshes without a "
-                      "filter; below this value they see this value.",
-                      Patterns::Double(1e-6, 1.));
+    prm.add_parameter(
+      "Filter radius",
+      filter_text,
+      "Radius of the disc over which a grain gives to and reads from the fluid: `grain` (its own fluid radius, as in "
+      "the paper) or a multiple of its contact diameter, e.g. `2 d`. On cells finer than about two grain diameters "
+      "only "
+      "1.5 d to 2 d give the right flux through a bed.");
+    prm.add_parameter(
+      "Overlap rule",
+      rule_text,
+      "How shape functions are integrated over the pieces of a grain: `centroid` (the paper: at the piece's centroid, "
+      "exact for linear functions) or `moments` (with second moments: exact for bilinear functions on parallelograms).",
+      Patterns::Selection("centroid|moments"));
+    prm.add_parameter(
+      "Minimal void fraction in the drag",
+      eps_floor,
+      "Drag laws diverge as the void fraction goes to zero, which happens inside grains on fine meshes without a "
+      "filter; below this value they see this value.",
+      Patterns::Double(1e-6, 1.));
     drag_choice.add_parameters(prm, "Drag law", "disc", "Closure for the drag f = gamma (u - v) per volume of grain.");
     scheme_choice.add_parameters(prm,
                                  "Time scheme",
@@ -40,7 +43,6 @@ namespace alluvium::coupling
                                  "How grains and fluid see each other's velocity within a time step.");
     prm.leave_subsection();
   }
-
 
 
   void Coupling::parse_parameters()
@@ -59,7 +61,8 @@ namespace alluvium::coupling
         catch (const std::exception &)
           {}
         check_user(end > 0 && Utilities::trim(text.substr(end)) == "d" && x >= 0.5 && x <= 20.,
-                   "Coupling/Filter radius: expected `grain` or a number of grain diameters between 0.5 and 20 followed by d, such as "
+                   "Coupling/Filter radius: expected `grain` or a number of grain diameters between 0.5 and 20 "
+                   "followed by d, such as "
                    "`2 d`; got '" +
                      filter_text + "'.");
         settings.filter_radius = x;
@@ -68,14 +71,12 @@ namespace alluvium::coupling
   }
 
 
-
   void Coupling::reinit()
   {
     map.reinit();
     eps          = space->make_nodal_field();
     latest_sweep = space->make_field();
   }
-
 
 
   void Coupling::update_void_fraction(const grains::GrainArrays &grains)
@@ -93,7 +94,6 @@ namespace alluvium::coupling
     last.eps_max  = Utilities::MPI::max(high, space->communicator());
     last.n_pieces = Utilities::MPI::sum(map.grain().size(), space->communicator());
   }
-
 
 
   void Coupling::step(const fluid::BoundaryConditions<dim> &boundary_conditions,
@@ -143,7 +143,6 @@ namespace alluvium::coupling
   }
 
 
-
   void Coupling::find_drag(CouplingState &state) const
   {
     const auto        &terms = map.terms();
@@ -164,7 +163,6 @@ namespace alluvium::coupling
           state.gamma[k] = law.gamma(s);
         }
   }
-
 
 
   void Coupling::collect_forces(const CouplingState &state)
@@ -202,7 +200,6 @@ namespace alluvium::coupling
   }
 
 
-
   void Coupling::add_grain_response(const grains::GrainArrays &grains, const grains::GrainLoads &loads)
   {
     std::array<double, 2> sum{};
@@ -213,7 +210,6 @@ namespace alluvium::coupling
       }
     last.momentum_not_received = std::hypot(sum[0], sum[1]);
   }
-
 
 
   void Coupling::audit()

@@ -8,20 +8,20 @@ namespace alluvium::coupling
 {
   void DallavalleDrag::add_parameters(dealii::ParameterHandler &prm)
   {
-    prm.add_parameter("Exponent",
-                      exponent,
-                      "Exponent of the void fraction: constant (-2.8) or Di Felice's, which depends on the Reynolds number.",
-                      dealii::Patterns::Selection("constant|Di Felice"));
+    prm.add_parameter(
+      "Exponent",
+      exponent,
+      "Exponent of the void fraction: constant (-2.8) or Di Felice's, which depends on the Reynolds number.",
+      dealii::Patterns::Selection("constant|Di Felice"));
     prm.add_parameter("Factor", factor, "Multiplies the drag.", dealii::Patterns::Double(0.));
   }
 
 
-
   double DallavalleDrag::gamma(const DragState &s) const
   {
-    const double re    = s.eps * s.density * s.diameter * s.slip / s.viscosity;
+    const double re      = s.eps * s.density * s.diameter * s.slip / s.viscosity;
     const double bracket = a * std::sqrt(re) + b;
-    double       n     = 2.8;
+    double       n       = 2.8;
     if (exponent[0] == 'D')
       {
         const double z = 1.5 - std::log10(std::max(re, 1e-30));
@@ -29,7 +29,6 @@ namespace alluvium::coupling
       }
     return factor * shape * std::pow(s.eps, -n) * bracket * bracket * s.viscosity / (s.diameter * s.diameter);
   }
-
 
 
   namespace
@@ -56,7 +55,8 @@ namespace alluvium::coupling
 
   ALLUVIUM_REGISTER_DRAG_LAW(DiscDrag, "disc", "Dallavalle-Di Felice for a slice of a cylinder across the flow.")
   ALLUVIUM_REGISTER_DRAG_LAW(SphereDrag, "sphere", "Dallavalle-Di Felice for spheres.")
-  ALLUVIUM_REGISTER_DRAG_LAW(PaperDrag,
-                             "paper",
-                             "With the constants 0.77 and 5.87 of the paper's equation (8), squared: twice the sphere's drag.")
+  ALLUVIUM_REGISTER_DRAG_LAW(
+    PaperDrag,
+    "paper",
+    "With the constants 0.77 and 5.87 of the paper's equation (8), squared: twice the sphere's drag.")
 } // namespace alluvium::coupling

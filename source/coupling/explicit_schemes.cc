@@ -1,5 +1,6 @@
-// The two schemes that freeze the grains' velocity during the fluid's step. Kept for the stability charts: sand in water allows
-// them only time steps below 2 eps^2 (1-r) tau_p, r = (1-eps) rho / (eps rho_p), and none at all for r >= 1.
+// The two schemes that freeze the grains' velocity during the fluid's step. Kept for the stability charts: sand in
+// water allows them only time steps below 2 eps^2 (1-r) tau_p, r = (1-eps) rho / (eps rho_p), and none at all for r
+// >= 1.
 #include <alluvium/coupling/time_scheme.h>
 
 namespace alluvium::coupling
@@ -15,7 +16,7 @@ namespace alluvium::coupling
     class Explicit : public TimeScheme
     {
     public:
-      void exchange_terms(const CouplingState                  &state,
+      void exchange_terms(const CouplingState &state,
                           const unsigned int,
                           std::vector<fluid::PieceExchange<2>> &exchange) const override
       {
@@ -32,7 +33,7 @@ namespace alluvium::coupling
     class ImplicitDrag : public TimeScheme
     {
     public:
-      void exchange_terms(const CouplingState                  &state,
+      void exchange_terms(const CouplingState &state,
                           const unsigned int,
                           std::vector<fluid::PieceExchange<2>> &exchange) const override
       {

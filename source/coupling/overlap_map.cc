@@ -19,7 +19,8 @@ namespace alluvium::coupling
       GrainBins(const grains::GrainArrays &grains, const double width)
         : width(width)
       {
-        lower = {{*std::min_element(grains.x.begin(), grains.x.end()), *std::min_element(grains.y.begin(), grains.y.end())}};
+        lower = {
+          {*std::min_element(grains.x.begin(), grains.x.end()), *std::min_element(grains.y.begin(), grains.y.end())}};
         const std::array<double, 2> upper = {
           {*std::max_element(grains.x.begin(), grains.x.end()), *std::max_element(grains.y.begin(), grains.y.end())}};
         for (unsigned int d = 0; d < 2; ++d)
@@ -40,7 +41,8 @@ namespace alluvium::coupling
       }
 
       /** All grains whose centres may lie in the box, in rising order. */
-      void find(const std::array<double, 2> &low, const std::array<double, 2> &high, std::vector<unsigned int> &found) const
+      void
+      find(const std::array<double, 2> &low, const std::array<double, 2> &high, std::vector<unsigned int> &found) const
       {
         found.clear();
         for (unsigned int d = 0; d < 2; ++d)
@@ -66,11 +68,9 @@ namespace alluvium::coupling
   } // namespace
 
 
-
   OverlapMap::OverlapMap(const fluid::FluidSpace<dim> &space)
     : space(&space)
   {}
-
 
 
   void OverlapMap::reinit()
@@ -87,7 +87,6 @@ namespace alluvium::coupling
         polygons.emplace_back(polygon);
       }
   }
-
 
 
   void OverlapMap::cut(const grains::GrainArrays &grains, const OverlapSettings &settings)
@@ -135,7 +134,6 @@ namespace alluvium::coupling
   }
 
 
-
   void OverlapMap::add_piece(const unsigned int       cell,
                              const unsigned int       grain,
                              const geometry::Overlap &o,
@@ -165,7 +163,7 @@ namespace alluvium::coupling
       {
         // invert x = e xi + f eta + g xi eta; affine cells need one step
         const auto                  e = edge(0, 1), f = edge(0, 2);
-        const std::array<double, 2> g = {{v[3][0] - v[1][0] - f[0], v[3][1] - v[1][1] - f[1]}};
+        const std::array<double, 2> g  = {{v[3][0] - v[1][0] - f[0], v[3][1] - v[1][1] - f[1]}};
         double                      xi = 0.5, eta = 0.5, det = 0.;
         std::array<double, 2>       a, b; // columns of the Jacobian at (xi, eta)
         for (unsigned int step = 0; step < (data.parallelogram ? 1 : 20); ++step)
@@ -186,10 +184,10 @@ namespace alluvium::coupling
             if (std::abs(dxi) + std::abs(deta) < 1e-14)
               break;
           }
-        const double second = moments ? ((b[1] * o.second_moments[0] - b[0] * o.second_moments[1]) * -a[1] +
+        const double second  = moments ? ((b[1] * o.second_moments[0] - b[0] * o.second_moments[1]) * -a[1] +
                                          (b[1] * o.second_moments[1] - b[0] * o.second_moments[2]) * a[0]) /
-                                          (det * det * o.area) :
-                                        0.; // mean of (xi - xi_c)(eta - eta_c)
+                                          (det * det * o.area)
+                                       : 0.; // mean of (xi - xi_c)(eta - eta_c)
         const double product = xi * eta + second;
         s.phi                = {{1. - xi - eta + product, xi - product, eta - product, product}};
         const std::array<std::array<double, 2>, 4> reference = {
@@ -201,7 +199,6 @@ namespace alluvium::coupling
     pieces.shape.push_back(s);
     grain_of_piece.push_back(grain);
   }
-
 
 
   double OverlapMap::void_fraction(fluid::Vector &eps) const
@@ -228,12 +225,14 @@ namespace alluvium::coupling
       }
     solid.compress(VectorOperation::add);
 
-    // overfull nodes hand their excess to the nodes of their cells, in proportion to the room there (in few passes; 200 are for crowds)
+    // overfull nodes hand their excess to the nodes of their cells, in proportion to the room there (in few passes; 200
+    // are for crowds)
     double moved = 0.;
     for (unsigned int pass = 0; pass < 200; ++pass)
       {
-        fluid::Vector excess = space->make_nodal_field(), room = space->make_nodal_field(), share = space->make_nodal_field();
-        double        total = 0.;
+        fluid::Vector excess = space->make_nodal_field(), room = space->make_nodal_field(),
+                      share = space->make_nodal_field();
+        double total        = 0.;
         for (unsigned int i = 0; i < solid.locally_owned_size(); ++i)
           {
             const double over       = solid.local_element(i) - volumes.local_element(i);
@@ -283,13 +282,11 @@ namespace alluvium::coupling
 
     eps.zero_out_ghost_values();
     for (unsigned int i = 0; i < eps.locally_owned_size(); ++i)
-      eps.local_element(i) = volumes.local_element(i) > 0. ?
-                               std::max(0., 1. - solid.local_element(i) / volumes.local_element(i)) :
-                               1.;
+      eps.local_element(i) =
+        volumes.local_element(i) > 0. ? std::max(0., 1. - solid.local_element(i) / volumes.local_element(i)) : 1.;
     space->interpolate_hanging_nodes(eps);
     return moved;
   }
-
 
 
   void OverlapMap::sum_over_ranks(std::vector<double> &per_grain) const

@@ -7,13 +7,12 @@ namespace alluvium::coupling
   namespace
   {
     /**
-     * One rigid v* per grain without the fill of a rigid coupling ("half lag"). With s_k = gamma_k u - grad p on the pieces, S = sum A s_k,
-     * G = sum A gamma_k and a known field "lag",
-     *   w    = [m v^n/dt + m' g + F_c + S(lag)] / (m/dt + G)
-     *   v*_k = w + 1/2 c_k (s_k^{n+1} - s_k^{lag}),          c_k = 1 / (rho_p/dt + gamma_k),
-     * which is exactly rigid once lag and new agree. Sweep 1 lags with the old fields on the new pieces, sweep 2 with sweep 1, and so
-     * on; grains that touched others in the last step keep the old lag, to which their contact forces belong. Even numbers of
-     * sweeps are stable for every dt, odd ones are not.
+     * One rigid v* per grain without the fill of a rigid coupling ("half lag"). With s_k = gamma_k u - grad p on the
+     * pieces, S = sum A s_k, G = sum A gamma_k and a known field "lag", w    = [m v^n/dt + m' g + F_c + S(lag)] / (m/dt
+     * + G) v*_k = w + 1/2 c_k (s_k^{n+1} - s_k^{lag}),          c_k = 1 / (rho_p/dt + gamma_k), which is exactly rigid
+     * once lag and new agree. Sweep 1 lags with the old fields on the new pieces, sweep 2 with sweep 1, and so on;
+     * grains that touched others in the last step keep the old lag, to which their contact forces belong. Even numbers
+     * of sweeps are stable for every dt, odd ones are not.
      */
     class SemiImplicitPerGrain : public TimeScheme
     {
@@ -33,31 +32,33 @@ namespace alluvium::coupling
                           std::vector<fluid::PieceExchange<2>> &exchange) const override
       {
         const auto &grains = state.grains;
-        const auto  lag    = [&](const std::size_t k) -> const PieceField    &{
+        const auto  lag    = [&](const std::size_t k) -> const PieceField  &{
           return sweep == 0 || state.touched[state.map.grain()[k]] ? state.old[k] : state.latest[k];
         };
         const std::vector<double> sums = sum_over_pieces(state, lag);
         for (std::size_t k = 0; k < exchange.size(); ++k)
           {
-            const unsigned int g       = state.map.grain()[k];
-            const double       inertia = grains.mass[g] / state.dt, denominator = inertia + sums[3 * g + 2];
-            const auto         weight  = state.reduced_weight(g);
-            const PieceField  &f       = lag(k);
+            const unsigned int      g       = state.map.grain()[k];
+            const double            inertia = grains.mass[g] / state.dt, denominator = inertia + sums[3 * g + 2];
+            const auto              weight = state.reduced_weight(g);
+            const PieceField       &f      = lag(k);
             fluid::PieceExchange<2> x;
             x.gamma      = state.gamma[k];
             x.compliance = 0.5 / (inertia / state.volume(g) + state.gamma[k]);
             x.a          = {{(inertia * grains.vx[g] + weight[0] + grains.fcx[g] + sums[3 * g]) / denominator +
-                      x.compliance * f.grad_p[0],
+                               x.compliance * f.grad_p[0],
                              (inertia * grains.vy[g] + weight[1] + grains.fcy[g] + sums[3 * g + 1]) / denominator +
-                      x.compliance * f.grad_p[1]}};
+                               x.compliance * f.grad_p[1]}};
             x.reference  = &f == &state.old[k] ? 1 : 2;
             exchange[k]  = x;
           }
       }
 
-      void loads(const CouplingState &state, const std::vector<std::array<double, 2>> &, grains::GrainLoads &loads) const override
+      void loads(const CouplingState &state,
+                 const std::vector<std::array<double, 2>> &,
+                 grains::GrainLoads &loads) const override
       {
-        const auto                latest = [&](const std::size_t k) -> const PieceField    &{ return state.latest[k]; };
+        const auto                latest = [&](const std::size_t k) -> const PieceField                &{ return state.latest[k]; };
         const std::vector<double> sums   = sum_over_pieces(state, latest);
         for (std::size_t g = 0; g < state.grains.n(); ++g)
           {
@@ -91,8 +92,9 @@ namespace alluvium::coupling
     };
   } // namespace
 
-  ALLUVIUM_REGISTER_TIME_SCHEME(SemiImplicitPerGrain,
-                                "semi-implicit per grain",
-                                "Velocities v* predicted with the new fluid in both equations, one rigid velocity for every grain; "
-                                "the grains' own step takes the drag implicitly.")
+  ALLUVIUM_REGISTER_TIME_SCHEME(
+    SemiImplicitPerGrain,
+    "semi-implicit per grain",
+    "Velocities v* predicted with the new fluid in both equations, one rigid velocity for every grain; "
+    "the grains' own step takes the drag implicitly.")
 } // namespace alluvium::coupling

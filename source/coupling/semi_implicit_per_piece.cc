@@ -7,12 +7,13 @@ namespace alluvium::coupling
     /**
      * The paper's scheme (12)-(15) as its own code has it: every piece of a grain predicts a velocity v* of its own,
      *   v*_k = c [rho_p v^n/dt + (m' g + F_c)/V + gamma u - grad p],   c = 1 / (rho_p/dt + gamma),   rho_p = m/V.
-     * The pieces of one grain then move apart and shed drag: where a grain spans several cells, even the steady answer depends on dt.
+     * The pieces of one grain then move apart and shed drag: where a grain spans several cells, even the steady answer
+     * depends on dt.
      */
     class SemiImplicitPerPiece : public TimeScheme
     {
     public:
-      void exchange_terms(const CouplingState                  &state,
+      void exchange_terms(const CouplingState &state,
                           const unsigned int,
                           std::vector<fluid::PieceExchange<2>> &exchange) const override
       {
@@ -27,15 +28,16 @@ namespace alluvium::coupling
             exchange[k].gamma          = state.gamma[k];
             exchange[k].compliance     = 1. / (inertia + state.gamma[k]);
             exchange[k].a              = {
-              {exchange[k].compliance * (inertia * grains.vx[g] + (weight[0] + grains.fcx[g]) / volume),
+                           {exchange[k].compliance * (inertia * grains.vx[g] + (weight[0] + grains.fcx[g]) / volume),
                             exchange[k].compliance * (inertia * grains.vy[g] + (weight[1] + grains.fcy[g]) / volume)}};
           }
       }
     };
   } // namespace
 
-  ALLUVIUM_REGISTER_TIME_SCHEME(SemiImplicitPerPiece,
-                                "semi-implicit per piece",
-                                "The paper's: velocities v* predicted with the new fluid in both equations, one for every piece of a "
-                                "grain.")
+  ALLUVIUM_REGISTER_TIME_SCHEME(
+    SemiImplicitPerPiece,
+    "semi-implicit per piece",
+    "The paper's: velocities v* predicted with the new fluid in both equations, one for every piece of a "
+    "grain.")
 } // namespace alluvium::coupling

@@ -4,7 +4,8 @@
 
 namespace alluvium::coupling
 {
-  std::vector<PieceField> evaluate(const OverlapMap &map, const fluid::FluidSpace<2> &space, const fluid::BlockVector &field)
+  std::vector<PieceField>
+  evaluate(const OverlapMap &map, const fluid::FluidSpace<2> &space, const fluid::BlockVector &field)
   {
     const auto             &terms = map.terms();
     const unsigned int      n     = space.n_nodes_per_cell();
@@ -38,12 +39,10 @@ namespace alluvium::coupling
   }
 
 
-
   double CouplingState::volume(const std::size_t g) const
   {
     return dealii::numbers::PI * grains.fluid_radius[g] * grains.fluid_radius[g];
   }
-
 
 
   std::array<double, 2> CouplingState::reduced_weight(const std::size_t g) const
@@ -53,10 +52,9 @@ namespace alluvium::coupling
   }
 
 
-
-  void TimeScheme::loads(const CouplingState                       &state,
+  void TimeScheme::loads(const CouplingState                      &state,
                          const std::vector<std::array<double, 2>> &force,
-                         grains::GrainLoads                        &loads) const
+                         grains::GrainLoads                       &loads) const
   {
     for (std::size_t g = 0; g < state.grains.n(); ++g)
       {

@@ -18,25 +18,27 @@ namespace alluvium::fluid
                       "Names of the boundaries on which the fluid sticks: u = 0. Separated by commas. A rectangle's "
                       "boundaries are left, right, bottom and top; a mesh file's are its physical groups.");
     prm.add_parameter("Slip walls", slip, "Names of the impermeable boundaries without wall shear: u.n = 0.");
-    prm.add_parameter("Symmetric",
-                      symmetric,
-                      "Names of the symmetry lines: u.n = 0 and no shear, in this formulation the same as a slip wall.");
     prm.add_parameter(
-      "Pressure",
-      pressure,
-      "Boundaries open to a given total pressure [Pa], as `name: expression; name: expression`. An expression may use x, y, t "
-      "and the constants rho (fluid density), g (magnitude of gravity), H (height of the domain), L (height of the bed at "
-      "t = 0) and pi, for instance `top: 0; bottom: rho*g*H*(1 + t)`.");
-    prm.add_parameter("Velocity",
-                      velocity,
-                      "Boundaries with a given fluid velocity [m/s], as `name: u_x | u_y; ...`, each component an expression "
-                      "as under Pressure.");
+      "Symmetric",
+      symmetric,
+      "Names of the symmetry lines: u.n = 0 and no shear, in this formulation the same as a slip wall.");
+    prm.add_parameter("Pressure",
+                      pressure,
+                      "Boundaries open to a given total pressure [Pa], as `name: expression; name: expression`. An "
+                      "expression may use x, y, t "
+                      "and the constants rho (fluid density), g (magnitude of gravity), H (height of the domain), L "
+                      "(height of the bed at "
+                      "t = 0) and pi, for instance `top: 0; bottom: rho*g*H*(1 + t)`.");
+    prm.add_parameter(
+      "Velocity",
+      velocity,
+      "Boundaries with a given fluid velocity [m/s], as `name: u_x | u_y; ...`, each component an expression "
+      "as under Pressure.");
     prm.add_parameter("Pin pressure",
                       pin_pressure,
                       "In a box closed all around, fix the pressure at one node (its level is arbitrary there).");
     prm.leave_subsection();
   }
-
 
 
   template <int dim>
@@ -51,32 +53,34 @@ namespace alluvium::fluid
     const auto add = [&](const std::string &parameter, const std::string &name, const Condition &condition) {
       const auto it = ids.find(name);
       check_user(it != ids.end(),
-                 "Boundary conditions/" + parameter + ": there is no boundary named '" + name + "'. The domain's boundaries are: " +
-                   known + ".");
+                 "Boundary conditions/" + parameter + ": there is no boundary named '" + name +
+                   "'. The domain's boundaries are: " + known + ".");
       check_user(conditions.count(it->second) == 0,
                  "Boundary conditions/" + parameter + ": boundary '" + name + "' already has another condition.");
       conditions[it->second] = condition;
     };
-    const auto parse_function = [&](const std::string &where, const std::string &text, const unsigned int n_components) {
-      auto                           f = std::make_shared<FunctionParser<dim>>(n_components);
-      const std::vector<std::string> components = Utilities::split_string_list(text, '|');
-      check_user(components.size() == n_components,
-                 where + ": expected " + std::to_string(n_components) +
-                   " expression(s) separated by '|', got '" + text + "'.");
-      try
-        {
-          f->initialize(FunctionParser<dim>::default_variable_names() + ",t", components, constants, true);
-          f->value(Point<dim>());
-        }
-      catch (const std::exception &)
-        {
-          std::string names;
-          for (const auto &[name, value] : constants)
-            names += ", " + name;
-          throw UserError(where + ": cannot understand the expression '" + text + "'; it may use x, y, t" + names + ".");
-        }
-      return f;
-    };
+    const auto parse_function =
+      [&](const std::string &where, const std::string &text, const unsigned int n_components) {
+        auto                           f          = std::make_shared<FunctionParser<dim>>(n_components);
+        const std::vector<std::string> components = Utilities::split_string_list(text, '|');
+        check_user(components.size() == n_components,
+                   where + ": expected " + std::to_string(n_components) + " expression(s) separated by '|', got '" +
+                     text + "'.");
+        try
+          {
+            f->initialize(FunctionParser<dim>::default_variable_names() + ",t", components, constants, true);
+            f->value(Point<dim>());
+          }
+        catch (const std::exception &)
+          {
+            std::string names;
+            for (const auto &[name, value] : constants)
+              names += ", " + name;
+            throw UserError(where + ": cannot understand the expression '" + text + "'; it may use x, y, t" + names +
+                            ".");
+          }
+        return f;
+      };
 
     for (const auto &name : Utilities::split_string_list(no_slip))
       add("No-slip walls", name, {Kind::no_slip, name, nullptr});
@@ -85,14 +89,17 @@ namespace alluvium::fluid
     for (const auto &name : Utilities::split_string_list(symmetric))
       add("Symmetric", name, {Kind::slip, name, nullptr});
     for (const auto &[parameter, text, kind, n_components] :
-         {std::make_tuple("Pressure", pressure, Kind::pressure, 1u), std::make_tuple("Velocity", velocity, Kind::velocity, 0u + dim)})
+         {std::make_tuple("Pressure", pressure, Kind::pressure, 1u),
+          std::make_tuple("Velocity", velocity, Kind::velocity, 0u + dim)})
       for (const auto &item : Utilities::split_string_list(text, ';'))
         {
           const auto        colon = item.find(':');
           const std::string where = std::string("Boundary conditions/") + parameter;
           check_user(colon != std::string::npos, where + ": expected `name: expression`, got '" + item + "'.");
           const std::string name = Utilities::trim(item.substr(0, colon));
-          add(parameter, name, {kind, name, parse_function(where, Utilities::trim(item.substr(colon + 1)), n_components)});
+          add(parameter,
+              name,
+              {kind, name, parse_function(where, Utilities::trim(item.substr(colon + 1)), n_components)});
         }
 
     bool pressure_is_fixed = pin_pressure;
@@ -103,12 +110,12 @@ namespace alluvium::fluid
                      "' has none. Name it under 'No-slip walls', 'Slip walls', 'Symmetric', 'Pressure' or 'Velocity'.");
         pressure_is_fixed = pressure_is_fixed || conditions.at(id).kind == Kind::pressure;
       }
-    check_user(pressure_is_fixed,
-               "Boundary conditions: the pressure is fixed nowhere. Give it on a boundary under 'Pressure', or, in a box closed "
-               "all around, set 'Pin pressure = true'.");
+    check_user(
+      pressure_is_fixed,
+      "Boundary conditions: the pressure is fixed nowhere. Give it on a boundary under 'Pressure', or, in a box closed "
+      "all around, set 'Pin pressure = true'.");
     set_time(0.);
   }
-
 
 
   template <int dim>
@@ -118,7 +125,6 @@ namespace alluvium::fluid
       if (condition.value)
         condition.value->set_time(time);
   }
-
 
 
   template class BoundaryConditions<2>;

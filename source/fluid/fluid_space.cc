@@ -36,8 +36,8 @@ namespace alluvium::fluid
 
     // the same cell seen by another DoFHandler (deal.II has a member function for it only from 9.5 on)
     template <int dim>
-    typename DoFHandler<dim>::active_cell_iterator nodal_iterator(const typename DoFHandler<dim>::active_cell_iterator &cell,
-                                                                  const DoFHandler<dim> &other)
+    typename DoFHandler<dim>::active_cell_iterator
+    nodal_iterator(const typename DoFHandler<dim>::active_cell_iterator &cell, const DoFHandler<dim> &other)
     {
       return {&cell->get_triangulation(), cell->level(), cell->index(), &other};
     }
@@ -57,7 +57,6 @@ namespace alluvium::fluid
       return QGauss<dim - 1>(2);
     }
   } // namespace
-
 
 
   template <int dim>
@@ -81,7 +80,6 @@ namespace alluvium::fluid
     system_fe = std::make_unique<FESystem<dim>>(*scalar_fe, dim + 1);
     n_nodes   = scalar_fe->n_dofs_per_cell();
   }
-
 
 
   template <int dim>
@@ -123,7 +121,6 @@ namespace alluvium::fluid
   }
 
 
-
   template <int dim>
   void FluidSpace<dim>::make_constraints(const BoundaryConditions<dim> &boundary_conditions)
   {
@@ -143,14 +140,12 @@ namespace alluvium::fluid
       std::map<Kind, types::boundary_id>           kinds;
       std::vector<Tensor<1, dim>>                  slip_normals;
     };
-    std::map<types::global_dof_index, Node>                        nodes; // by nodal dof
+    std::map<types::global_dof_index, Node>                         nodes; // by nodal dof
     std::map<types::boundary_id, std::set<types::global_dof_index>> on_boundary;
 
-    const Quadrature<dim - 1>            quadrature = face_quadrature<dim>();
-    FEFaceValues<dim>                    face_values(*map,
-                                  *scalar_fe,
-                                  quadrature,
-                                  update_values | update_normal_vectors | update_JxW_values);
+    const Quadrature<dim - 1> quadrature = face_quadrature<dim>();
+    FEFaceValues<dim>         face_values(
+      *map, *scalar_fe, quadrature, update_values | update_normal_vectors | update_JxW_values);
     std::vector<types::global_dof_index> cell_dofs(system_fe->n_dofs_per_cell()), cell_nodes(n_nodes);
 
     unsigned int cell_index = 0;
@@ -285,11 +280,10 @@ namespace alluvium::fluid
   }
 
 
-
   template <int dim>
   void FluidSpace<dim>::cache_cells()
   {
-    const bool            simplex = is_simplex_mesh(*tria);
+    const bool            simplex    = is_simplex_mesh(*tria);
     const Quadrature<dim> quadrature = cell_quadrature<dim>(simplex);
     n_q                              = quadrature.size();
     AssertThrow(n_q <= max_nodes<dim>, ExcInternalError());
@@ -325,9 +319,9 @@ namespace alluvium::fluid
               data.node[v]   = nodal_partitioner->global_to_local(cell_nodes[v]);
               for (unsigned int c = 0; c <= dim; ++c)
                 {
-                  const auto dof                 = cell_dofs[system_fe->component_to_system_index(c, v)];
-                  data.dofs[v * (dim + 1) + c]   = dof;
-                  data.constrained               = data.constrained || system_constraints.is_constrained(dof);
+                  const auto dof               = cell_dofs[system_fe->component_to_system_index(c, v)];
+                  data.dofs[v * (dim + 1) + c] = dof;
+                  data.constrained             = data.constrained || system_constraints.is_constrained(dof);
                   if (c < dim)
                     data.velocity[v][c] = partitioners[0]->global_to_local(dof);
                   else
@@ -357,7 +351,6 @@ namespace alluvium::fluid
   }
 
 
-
   template <int dim>
   BlockVector FluidSpace<dim>::make_field() const
   {
@@ -369,13 +362,11 @@ namespace alluvium::fluid
   }
 
 
-
   template <int dim>
   Vector FluidSpace<dim>::make_nodal_field() const
   {
     return Vector(nodal_partitioner);
   }
-
 
 
   template <int dim>
@@ -402,7 +393,6 @@ namespace alluvium::fluid
   }
 
 
-
   template <int dim>
   double FluidSpace<dim>::pressure_datum(const BoundaryConditions<dim> &boundary_conditions,
                                          const Tensor<1, dim>          &hydrostatic_gradient) const
@@ -424,7 +414,6 @@ namespace alluvium::fluid
   }
 
 
-
   template <int dim>
   void FluidSpace<dim>::interpolate_hanging_nodes(Vector &nodal_field) const
   {
@@ -432,7 +421,6 @@ namespace alluvium::fluid
     nodal_hanging.distribute(nodal_field);
     nodal_field.update_ghost_values();
   }
-
 
 
   template class FluidSpace<2>;

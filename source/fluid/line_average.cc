@@ -22,14 +22,13 @@ namespace alluvium::fluid
   } // namespace
 
 
-
   template <int dim>
   double line_average(const FluidSpace<dim>                                                         &space,
                       const BlockVector                                                             &solution,
                       const double                                                                   y_wanted,
                       const std::function<double(const std::array<double, dim> &u, const double p)> &function)
   {
-    const unsigned int n = space.n_nodes_per_cell();
+    const unsigned int n   = space.n_nodes_per_cell();
     double             top = -std::numeric_limits<double>::infinity(), bottom = -top;
     for (const auto &cell : space.cells())
       for (unsigned int v = 0; v < n; ++v)
@@ -42,8 +41,8 @@ namespace alluvium::fluid
     // a hair inside, so that the boundary's own lines belong to a cell
     const double y = std::min(std::max(y_wanted, bottom + 1e-9 * (top - bottom)), top - 1e-9 * (top - bottom));
 
-    const std::array<std::pair<unsigned int, unsigned int>, 4> quad = {{{0, 1}, {1, 3}, {3, 2}, {2, 0}}};
-    const std::array<std::pair<unsigned int, unsigned int>, 4> tri  = {{{0, 1}, {1, 2}, {2, 0}, {0, 0}}};
+    const std::array<std::pair<unsigned int, unsigned int>, 4> quad   = {{{0, 1}, {1, 3}, {3, 2}, {2, 0}}};
+    const std::array<std::pair<unsigned int, unsigned int>, 4> tri    = {{{0, 1}, {1, 2}, {2, 0}, {0, 0}}};
     double                                                     sum[2] = {0., 0.};
     for (const auto &cell : space.cells())
       {
@@ -76,7 +75,6 @@ namespace alluvium::fluid
     Utilities::MPI::sum(ArrayView<const double>(sum, 2), space.communicator(), ArrayView<double>(sum, 2));
     return sum[0] / sum[1];
   }
-
 
 
   template double line_average<2>(const FluidSpace<2> &,

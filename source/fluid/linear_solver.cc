@@ -64,24 +64,25 @@ namespace alluvium::fluid
   } // namespace
 
 
-
   void LinearSolver::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Linear solver");
-    prm.add_parameter("Tolerance",
-                      tolerance,
-                      "Residual at which the fluid's linear solver stops, relative to the size of the terms of the equations "
-                      "(pressure gradient and volume flux).",
-                      Patterns::Double(1e-14, 0.1));
-    prm.add_parameter("Maximal iterations", max_iterations, "GMRES iterations after which a solve has failed.", Patterns::Integer(1));
-    prm.add_parameter("Rebuild threshold",
-                      rebuild_threshold,
-                      "The preconditioner is kept over time steps and rebuilt once a solve needs this many times the iterations "
-                      "that it needed when fresh.",
-                      Patterns::Double(1.));
+    prm.add_parameter(
+      "Tolerance",
+      tolerance,
+      "Residual at which the fluid's linear solver stops, relative to the size of the terms of the equations "
+      "(pressure gradient and volume flux).",
+      Patterns::Double(1e-14, 0.1));
+    prm.add_parameter(
+      "Maximal iterations", max_iterations, "GMRES iterations after which a solve has failed.", Patterns::Integer(1));
+    prm.add_parameter(
+      "Rebuild threshold",
+      rebuild_threshold,
+      "The preconditioner is kept over time steps and rebuilt once a solve needs this many times the iterations "
+      "that it needed when fresh.",
+      Patterns::Double(1.));
     prm.leave_subsection();
   }
-
 
 
   void LinearSolver::clear()
@@ -91,7 +92,6 @@ namespace alluvium::fluid
     pressure.clear();
     schur.reset();
   }
-
 
 
   void LinearSolver::build(const TrilinosWrappers::BlockSparseMatrix &matrix)
@@ -110,7 +110,8 @@ namespace alluvium::fluid
     EpetraExt::MatrixMatrix::Add(
       matrix.block(1, 1).trilinos_matrix(), false, 1., product.trilinos_matrix(), false, 1., sum);
     schur.reset(sum);
-    schur->FillComplete(matrix.block(1, 1).trilinos_matrix().DomainMap(), matrix.block(1, 1).trilinos_matrix().RangeMap());
+    schur->FillComplete(matrix.block(1, 1).trilinos_matrix().DomainMap(),
+                        matrix.block(1, 1).trilinos_matrix().RangeMap());
 
     TrilinosWrappers::PreconditionAMG::AdditionalData data;
     data.elliptic              = true;
@@ -121,7 +122,6 @@ namespace alluvium::fluid
     exists = true;
     fresh  = true;
   }
-
 
 
   LinearSolverReport LinearSolver::solve(const TrilinosWrappers::BlockSparseMatrix &matrix,
@@ -136,7 +136,7 @@ namespace alluvium::fluid
     rhs.block(1) *= ratio;
     const double norm = rhs.l2_norm(), target = tolerance * scale[0];
     AssertThrow(std::isfinite(norm), ExcMessage("The fluid's right-hand side is not finite."));
-    x = 0.;
+    x               = 0.;
     report.residual = norm / scale[0];
     if (norm <= target)
       return report;
@@ -146,7 +146,7 @@ namespace alluvium::fluid
     for (bool retry = true; retry;)
       {
         report.rebuilt = fresh;
-        SolverControl                                    control(max_iterations, target, false, false);
+        SolverControl                                     control(max_iterations, target, false, false);
         typename SolverGMRES<BlockVector>::AdditionalData data;
         data.max_n_tmp_vectors     = 60;
         data.right_preconditioning = true;
@@ -167,7 +167,8 @@ namespace alluvium::fluid
                 retry = true;
                 continue;
               }
-            // GMRES stalls where round-off of large cancelling terms is above the tolerance: good enough is told, not hidden
+            // GMRES stalls where round-off of large cancelling terms is above the tolerance: good enough is told, not
+            // hidden
             report.loose = true;
             AssertThrow(control.last_value() <= acceptable_residual * scale[0],
                         ExcMessage("The fluid's linear solver has not converged in " + std::to_string(max_iterations) +

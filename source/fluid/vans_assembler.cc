@@ -12,8 +12,8 @@ namespace alluvium::fluid
   namespace
   {
     /**
-     * The weak form on one cell with n nodes. Local unknowns are ordered node * (dim+1) + component, component dim the pressure.
-     * The number of nodes is a template argument so that the compiler unrolls the loops.
+     * The weak form on one cell with n nodes. Local unknowns are ordered node * (dim+1) + component, component dim the
+     * pressure. The number of nodes is a template argument so that the compiler unrolls the loops.
      */
     template <int dim, int n>
     class CellKernel
@@ -31,10 +31,10 @@ namespace alluvium::fluid
       /** Read the cell's nodal values and find tau. */
       void reinit(const unsigned int index)
       {
-        cell_index = index;
-        cell       = &space.cells()[index];
-        begin      = problem.solid->begin.empty() ? 0 : problem.solid->begin[index];
-        end        = problem.solid->begin.empty() ? 0 : problem.solid->begin[index + 1];
+        cell_index      = index;
+        cell            = &space.cells()[index];
+        begin           = problem.solid->begin.empty() ? 0 : problem.solid->begin[index];
+        end             = problem.solid->begin.empty() ? 0 : problem.solid->begin[index + 1];
         double eps_mean = 0., u_norm = 0.;
         u_mean = {};
         for (unsigned int v = 0; v < n; ++v)
@@ -112,7 +112,8 @@ namespace alluvium::fluid
           }
       }
 
-      /** The terms of the pieces: drag, the solid's share of the pressure gradient, its velocity in the continuity equation. */
+      /** The terms of the pieces: drag, the solid's share of the pressure gradient, its velocity in the continuity
+       * equation. */
       void add_pieces(LocalMatrix &L) const
       {
         for (unsigned int k = begin; k < end; ++k)
@@ -150,10 +151,10 @@ namespace alluvium::fluid
         const double rho = problem.fluid.density;
         for (unsigned int q = 0; q < space.n_q_points(); ++q)
           {
-            const auto  &phi  = space.shape_values()[q];
-            const auto  &grad = cell->grad[q];
-            const double jxw  = cell->jxw[q];
-            const double inertia = value(eps, phi) * rho / problem.dt;
+            const auto                 &phi        = space.shape_values()[q];
+            const auto                 &grad       = cell->grad[q];
+            const double                jxw        = cell->jxw[q];
+            const double                inertia    = value(eps, phi) * rho / problem.dt;
             const std::array<double, n> streamline = advect(grad, phi);
             std::array<double, dim>     force{};
             for (unsigned int d = 0; d < dim; ++d)
@@ -188,9 +189,9 @@ namespace alluvium::fluid
       {
         for (unsigned int k = begin; k < end; ++k)
           {
-            const PieceShape<dim>      &s = problem.solid->shape[k];
-            const PieceExchange<dim>   &x = problem.solid->exchange[k];
-            const double                b = x.gamma * x.compliance;
+            const PieceShape<dim>      &s      = problem.solid->shape[k];
+            const PieceExchange<dim>   &x      = problem.solid->exchange[k];
+            const double                b      = x.gamma * x.compliance;
             const std::array<double, n> weight = piece_weight(s);
             for (unsigned int d = 0; d < dim; ++d)
               {
@@ -219,8 +220,8 @@ namespace alluvium::fluid
       {
         for (unsigned int q = 0; q < space.n_q_points(); ++q)
           {
-            const auto             &phi  = space.shape_values()[q];
-            const double            e    = value(eps, phi);
+            const auto             &phi = space.shape_values()[q];
+            const double            e   = value(eps, phi);
             std::array<double, dim> grad_p{}, flux{};
             for (unsigned int v = 0; v < n; ++v)
               for (unsigned int d = 0; d < dim; ++d)
@@ -301,22 +302,18 @@ namespace alluvium::fluid
   } // namespace
 
 
-
   template <int dim>
   VansAssembler<dim>::VansAssembler(const FluidSpace<dim> &space)
     : space(&space)
   {}
 
 
-
   template <int dim>
   void VansAssembler<dim>::reinit()
   {
     system_matrix.clear();
-    TrilinosWrappers::BlockSparsityPattern pattern(space->owned(),
-                                                   space->owned(),
-                                                   space->relevant(),
-                                                   space->communicator());
+    TrilinosWrappers::BlockSparsityPattern pattern(
+      space->owned(), space->owned(), space->relevant(), space->communicator());
     DoFTools::make_sparsity_pattern(space->dof_handler(),
                                     pattern,
                                     space->constraints(),
@@ -325,7 +322,6 @@ namespace alluvium::fluid
     pattern.compress();
     system_matrix.reinit(pattern);
   }
-
 
 
   template <int dim>
@@ -338,10 +334,10 @@ namespace alluvium::fluid
     residual      = 0.;
     known         = 0.;
     with_kernel<dim>(*space, problem, [&](auto kernel) {
-      using K                       = decltype(kernel);
-      constexpr unsigned int n      = K::n_local;
-      typename K::LocalMatrix L;
-      typename K::LocalVector b;
+      using K                                = decltype(kernel);
+      constexpr unsigned int               n = K::n_local;
+      typename K::LocalMatrix              L;
+      typename K::LocalVector              b;
       FullMatrix<double>                   local_matrix(n, n);
       dealii::Vector<double>               local_residual(n), local_known(n);
       std::vector<types::global_dof_index> local_dofs(n);
@@ -391,7 +387,8 @@ namespace alluvium::fluid
                 {
                   eps += problem.void_fraction->local_element(cell.node[v]) * face.phi[q][v];
                   for (unsigned int d = 0; d < dim; ++d)
-                    flux += iterate.block(0).local_element(cell.velocity[v][d]) * face.phi[q][v] * face.normal_jxw[q][d];
+                    flux +=
+                      iterate.block(0).local_element(cell.velocity[v][d]) * face.phi[q][v] * face.normal_jxw[q][d];
                 }
               for (unsigned int v = 0; v < n / (dim + 1); ++v)
                 local_residual(v * (dim + 1) + dim) -= eps * flux * face.phi[q][v];
@@ -408,14 +405,13 @@ namespace alluvium::fluid
   }
 
 
-
   template <int dim>
   void VansAssembler<dim>::known_interphase(const VansProblem<dim> &problem, BlockVector &known) const
   {
     known = 0.;
     with_kernel<dim>(*space, problem, [&](auto kernel) {
-      using K                  = decltype(kernel);
-      constexpr unsigned int n = K::n_local;
+      using K                                = decltype(kernel);
+      constexpr unsigned int               n = K::n_local;
       typename K::LocalVector              b;
       dealii::Vector<double>               local(n);
       std::vector<types::global_dof_index> local_dofs(n);
@@ -438,7 +434,6 @@ namespace alluvium::fluid
   }
 
 
-
   template <int dim>
   double VansAssembler<dim>::flux(const VansProblem<dim>  &problem,
                                   const BlockVector       &solution,
@@ -446,8 +441,8 @@ namespace alluvium::fluid
   {
     double sum = 0.;
     with_kernel<dim>(*space, problem, [&](auto kernel) {
-      using K                  = decltype(kernel);
-      constexpr unsigned int n = K::n_local;
+      using K                   = decltype(kernel);
+      constexpr unsigned int  n = K::n_local;
       typename K::LocalMatrix L;
       typename K::LocalVector b;
       for (const auto &[i, weight] : space->weights_at(id))
@@ -476,15 +471,14 @@ namespace alluvium::fluid
   }
 
 
-
   template <int dim>
   std::array<double, dim> VansAssembler<dim>::interphase_force(const VansProblem<dim> &problem,
                                                                const BlockVector      &solution) const
   {
     std::array<double, dim> sum{};
     with_kernel<dim>(*space, problem, [&](auto kernel) {
-      using K                  = decltype(kernel);
-      constexpr unsigned int n = K::n_local;
+      using K                   = decltype(kernel);
+      constexpr unsigned int  n = K::n_local;
       typename K::LocalMatrix L;
       typename K::LocalVector r;
       for (unsigned int i = 0; i < space->cells().size(); ++i)
@@ -516,9 +510,9 @@ namespace alluvium::fluid
   }
 
 
-
   template <int dim>
-  std::array<double, 2> VansAssembler<dim>::term_norms(const VansProblem<dim> &problem, const BlockVector &iterate) const
+  std::array<double, 2> VansAssembler<dim>::term_norms(const VansProblem<dim> &problem,
+                                                       const BlockVector      &iterate) const
   {
     double momentum = 0., continuity = 0.;
     with_kernel<dim>(*space, problem, [&](auto kernel) {
@@ -531,7 +525,6 @@ namespace alluvium::fluid
     const MPI_Comm comm = space->communicator();
     return {{std::sqrt(Utilities::MPI::sum(momentum, comm)), std::sqrt(Utilities::MPI::sum(continuity, comm))}};
   }
-
 
 
   template class VansAssembler<2>;

@@ -14,24 +14,25 @@ namespace alluvium::fluid
   {}
 
 
-
   template <int dim>
   void VansSolver<dim>::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Fluid");
     prm.add_parameter("Density", properties.density, "Density rho of the fluid [kg/m^3].", Patterns::Double(1e-6));
-    prm.add_parameter("Viscosity", properties.viscosity, "Dynamic viscosity eta of the fluid [Pa s].", Patterns::Double(1e-12));
-    prm.add_parameter("Convection",
-                      discretisation.convection,
-                      "Keep u.grad u (and its stabilisation). Without it the fluid obeys the volume-averaged Stokes equations.");
-    prm.add_parameter("Lumped drag",
-                      discretisation.lumped_drag,
-                      "Row-sum lump the drag in the momentum equation. Needed for the right flux on meshes finer than a grain; "
-                      "costs pressure accuracy where drag varies strongly within a cell.");
+    prm.add_parameter(
+      "Viscosity", properties.viscosity, "Dynamic viscosity eta of the fluid [Pa s].", Patterns::Double(1e-12));
+    prm.add_parameter(
+      "Convection",
+      discretisation.convection,
+      "Keep u.grad u (and its stabilisation). Without it the fluid obeys the volume-averaged Stokes equations.");
+    prm.add_parameter(
+      "Lumped drag",
+      discretisation.lumped_drag,
+      "Row-sum lump the drag in the momentum equation. Needed for the right flux on meshes finer than a grain; "
+      "costs pressure accuracy where drag varies strongly within a cell.");
     linear_solver.add_parameters(prm);
     prm.leave_subsection();
   }
-
 
 
   template <int dim>
@@ -50,13 +51,11 @@ namespace alluvium::fluid
   }
 
 
-
   template <int dim>
   void VansSolver<dim>::choose_datum(const BoundaryConditions<dim> &boundary_conditions)
   {
     pressure_datum = space->pressure_datum(boundary_conditions, properties.density * gravity);
   }
-
 
 
   template <int dim>
@@ -75,7 +74,6 @@ namespace alluvium::fluid
   }
 
 
-
   template <int dim>
   void VansSolver<dim>::solve()
   {
@@ -83,7 +81,6 @@ namespace alluvium::fluid
     report = {};
     solve_increment();
   }
-
 
 
   template <int dim>
@@ -98,11 +95,11 @@ namespace alluvium::fluid
   }
 
 
-
   template <int dim>
   void VansSolver<dim>::solve_increment()
   {
-    // the terms' sizes are known from the last iterate; if they turn out much smaller, the tolerance was too loose: once more
+    // the terms' sizes are known from the last iterate; if they turn out much smaller, the tolerance was too loose:
+    // once more
     for (unsigned int attempt = 0; attempt < 3; ++attempt)
       {
         const std::array<double, 2> scale = term_scale();
@@ -133,13 +130,12 @@ namespace alluvium::fluid
   }
 
 
-
   template <int dim>
   std::array<double, 2> VansSolver<dim>::term_scale() const
   {
     std::array<double, 2> scale = assembler.term_norms(current, iterate);
     // from rest no term has a size yet: the residual itself gives the first, u = p dt / (rho h) relates the two
-    scale[0] = std::max(scale[0], residual.block(0).l2_norm());
+    scale[0]            = std::max(scale[0], residual.block(0).l2_norm());
     const double length = std::sqrt(
       Utilities::MPI::max(space->cells().empty() ? 0. : space->cells().front().measure, space->communicator()));
     const double flux_per_force = current.dt / (properties.density * length);
@@ -150,14 +146,12 @@ namespace alluvium::fluid
   }
 
 
-
   template <int dim>
   void VansSolver<dim>::accept()
   {
     previous = iterate;
     previous.update_ghost_values();
   }
-
 
 
   template <int dim>
@@ -168,7 +162,6 @@ namespace alluvium::fluid
     iterate.update_ghost_values();
     previous.update_ghost_values();
   }
-
 
 
   template class VansSolver<2>;

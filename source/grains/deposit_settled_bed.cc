@@ -116,8 +116,8 @@ namespace alluvium::grains
       for (const Seed &s : seeds)
         top = std::max(top, s.y + s.radius);
       check_user(top <= box.upper[1],
-                 "The deposit 'settled bed' is " + std::to_string(top - box.lower[1]) +
-                   " m high, its box only " + std::to_string(box.upper[1] - box.lower[1]) + " m.");
+                 "The deposit 'settled bed' is " + std::to_string(top - box.lower[1]) + " m high, its box only " +
+                   std::to_string(box.upper[1] - box.lower[1]) + " m.");
       return seeds;
     }
 

@@ -397,7 +397,6 @@ namespace alluvium::grains
   }
 
 
-
   void GrainStore::write_vtu(const std::string &file_name) const
   {
     output([&](DataOutInterface<0, 2> &data) {

@@ -18,9 +18,12 @@ namespace alluvium::observers
       void add_columns(const Snapshot &s, Statistics &statistics) override
       {
         if (s.fluid)
-          for (const auto *name :
-               {"third_law_defect", "clipped_solid_volume_m2", "prediction_defect_mean_m_per_s", "prediction_defect_max_m_per_s",
-                "momentum_not_received_over_force", "fluid_residual"})
+          for (const auto *name : {"third_law_defect",
+                                   "clipped_solid_volume_m2",
+                                   "prediction_defect_mean_m_per_s",
+                                   "prediction_defect_max_m_per_s",
+                                   "momentum_not_received_over_force",
+                                   "fluid_residual"})
             statistics.add_column(name);
         statistics.add_column("mean_penetration_over_d");
         statistics.add_column("contact_residual");
@@ -81,8 +84,9 @@ namespace alluvium::observers
     };
   } // namespace
 
-  ALLUVIUM_REGISTER_OBSERVER(Audit,
-                             "audit",
-                             "What should vanish: defect of the third law, clipped solid volume, prediction defect |v - v*|, drag "
-                             "momentum that the grains got and the fluid did not, residuals, penetration.")
+  ALLUVIUM_REGISTER_OBSERVER(
+    Audit,
+    "audit",
+    "What should vanish: defect of the third law, clipped solid volume, prediction defect |v - v*|, drag "
+    "momentum that the grains got and the fluid did not, residuals, penetration.")
 } // namespace alluvium::observers

@@ -25,7 +25,7 @@ namespace alluvium::observers
 
       void write(const Snapshot &s, Statistics &statistics) override
       {
-        const auto &g    = s.grains;
+        const auto &g       = s.grains;
         double      fastest = 0., energy = 0.;
         for (std::size_t i = 0; i < g.n(); ++i)
           {
@@ -62,5 +62,6 @@ namespace alluvium::observers
     };
   } // namespace
 
-  ALLUVIUM_REGISTER_OBSERVER(Bed, "bed", "Height of the bed, fastest grain, kinetic energy, fastest fluid, range of the void fraction.")
+  ALLUVIUM_REGISTER_OBSERVER(
+    Bed, "bed", "Height of the bed, fastest grain, kinetic energy, fastest fluid, range of the void fraction.")
 } // namespace alluvium::observers

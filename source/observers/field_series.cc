@@ -20,7 +20,6 @@ namespace alluvium::observers
   {}
 
 
-
   template <int dim>
   void FieldSeries::write(DataOutInterface<dim, 2> &data, const ReferenceCell &cell, const double time)
   {
@@ -47,7 +46,6 @@ namespace alluvium::observers
   }
 
 
-
   void FieldSeries::write_list() const
   {
     if (hdf5)
@@ -70,7 +68,6 @@ namespace alluvium::observers
   }
 
 
-
   nlohmann::ordered_json FieldSeries::state() const
   {
     nlohmann::ordered_json result = nlohmann::ordered_json::array();
@@ -80,14 +77,12 @@ namespace alluvium::observers
   }
 
 
-
   void FieldSeries::resume(const nlohmann::ordered_json &state)
   {
     entries.clear();
     for (const auto &entry : state)
       entries.push_back({entry.at(0), entry.at(1), entry.at(2)});
   }
-
 
 
   template void FieldSeries::write<0>(DataOutInterface<0, 2> &, const ReferenceCell &, const double);

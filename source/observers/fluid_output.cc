@@ -34,8 +34,7 @@ namespace alluvium::observers
     data.add_data_vector(space.nodal_dof_handler(), pressure, "pressure");
     data.add_data_vector(space.nodal_dof_handler(), void_fraction, "void_fraction");
     data.build_patches(space.mapping());
-    series.write<2>(data,
-                    space.n_nodes_per_cell() == 3 ? ReferenceCells::Triangle : ReferenceCells::Quadrilateral,
-                    time);
+    series.write<2>(
+      data, space.n_nodes_per_cell() == 3 ? ReferenceCells::Triangle : ReferenceCells::Quadrilateral, time);
   }
 } // namespace alluvium::observers

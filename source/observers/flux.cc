@@ -56,5 +56,7 @@ namespace alluvium::observers
     };
   } // namespace
 
-  ALLUVIUM_REGISTER_OBSERVER(Flux, "flux", "Flux of the mixture out through every open boundary, and their sum over the largest.")
+  ALLUVIUM_REGISTER_OBSERVER(Flux,
+                             "flux",
+                             "Flux of the mixture out through every open boundary, and their sum over the largest.")
 } // namespace alluvium::observers

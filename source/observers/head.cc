@@ -10,13 +10,19 @@ namespace alluvium::observers
     {
     public:
       bool applies(const Snapshot &s) const override { return s.fluid != nullptr; }
-      void add_columns(const Snapshot &, Statistics &statistics) override { statistics.add_column("differential_head_m"); }
+      void add_columns(const Snapshot &, Statistics &statistics) override
+      {
+        statistics.add_column("differential_head_m");
+      }
       void observe(const Snapshot &s) override
       {
         last    = s.fluid->head;
         largest = std::max(largest, last);
       }
-      void write(const Snapshot &s, Statistics &statistics) override { statistics.set("differential_head_m", s.fluid->head); }
+      void write(const Snapshot &s, Statistics &statistics) override
+      {
+        statistics.set("differential_head_m", s.fluid->head);
+      }
       void conclude(Summary &summary) const override
       {
         summary.set("head/final_m", last);
@@ -30,5 +36,7 @@ namespace alluvium::observers
     };
   } // namespace
 
-  ALLUVIUM_REGISTER_OBSERVER(Head, "head", "Differential head between the bottom and the top of the bed as it was at t = 0.")
+  ALLUVIUM_REGISTER_OBSERVER(Head,
+                             "head",
+                             "Differential head between the bottom and the top of the bed as it was at t = 0.")
 } // namespace alluvium::observers

@@ -24,11 +24,12 @@ namespace alluvium::observers
     public:
       void add_parameters(dealii::ParameterHandler &prm) override
       {
-        prm.add_parameter("Distance",
-                          distance,
-                          "A grain is in motion once it is further than this from where it was at t = 0, in units of the largest "
-                          "grain diameter.",
-                          dealii::Patterns::Double(0.));
+        prm.add_parameter(
+          "Distance",
+          distance,
+          "A grain is in motion once it is further than this from where it was at t = 0, in units of the largest "
+          "grain diameter.",
+          dealii::Patterns::Double(0.));
         prm.add_parameter("First movement",
                           first_fraction,
                           "Mass fraction in motion that makes the first movement.",
@@ -39,7 +40,10 @@ namespace alluvium::observers
                           dealii::Patterns::Double(0., 1.));
       }
 
-      void add_columns(const Snapshot &, Statistics &statistics) override { statistics.add_column("moved_mass_fraction"); }
+      void add_columns(const Snapshot &, Statistics &statistics) override
+      {
+        statistics.add_column("moved_mass_fraction");
+      }
 
       void observe(const Snapshot &s) override
       {
@@ -72,7 +76,8 @@ namespace alluvium::observers
 
       void conclude(Summary &summary) const override
       {
-        for (const auto &[name, event] : {std::make_pair("first movement", first), std::make_pair("total heave", heave)})
+        for (const auto &[name, event] :
+             {std::make_pair("first movement", first), std::make_pair("total heave", heave)})
           {
             summary.set(std::string(name) + "/happened", event.happened());
             if (event.happened())
@@ -87,7 +92,8 @@ namespace alluvium::observers
 
       void save(nlohmann::ordered_json &state) const override
       {
-        state = {{"first", {first.time, first.head}}, {"heave", {heave.time, heave.head}}, {"last", {fraction, last_head}}};
+        state = {
+          {"first", {first.time, first.head}}, {"heave", {heave.time, heave.head}}, {"last", {fraction, last_head}}};
       }
 
       void load(const nlohmann::ordered_json &state) override
@@ -108,7 +114,6 @@ namespace alluvium::observers
     };
   } // namespace
 
-  ALLUVIUM_REGISTER_OBSERVER(Motion,
-                             "motion",
-                             "Mass fraction of the grains that have moved; the instants of first movement and total heave.")
+  ALLUVIUM_REGISTER_OBSERVER(
+    Motion, "motion", "Mass fraction of the grains that have moved; the instants of first movement and total heave.")
 } // namespace alluvium::observers

@@ -13,9 +13,9 @@ namespace alluvium::observers
   namespace
   {
     /**
-     * Who carries the grains: floor, walls, fluid. The bed is fluidised by force balance at the head at which the fluid carries the
-     * whole reduced weight, (s phi_m - phi_b) L whatever the mesh and the drag law (L the height of the bed, phi_m the packing that has mass, phi_b
-     * the packing that the fluid sees).
+     * Who carries the grains: floor, walls, fluid. The bed is fluidised by force balance at the head at which the fluid
+     * carries the whole reduced weight, (s phi_m - phi_b) L whatever the mesh and the drag law (L the height of the
+     * bed, phi_m the packing that has mass, phi_b the packing that the fluid sees).
      */
     class Support : public Observer
     {
@@ -37,10 +37,10 @@ namespace alluvium::observers
 
       void observe(const Snapshot &s) override
       {
-        const auto  &g         = s.grains;
-        const double g_norm    = std::hypot(s.gravity[0], s.gravity[1]);
-        const double rho       = s.fluid ? s.fluid->solver.properties.density : 0.;
-        double       weight    = 0., area_fluid = 0., mass = 0.;
+        const auto  &g      = s.grains;
+        const double g_norm = std::hypot(s.gravity[0], s.gravity[1]);
+        const double rho    = s.fluid ? s.fluid->solver.properties.density : 0.;
+        double       weight = 0., area_fluid = 0., mass = 0.;
         for (std::size_t i = 0; i < g.n(); ++i)
           {
             const double area = dealii::numbers::PI * g.fluid_radius[i] * g.fluid_radius[i];
@@ -64,9 +64,10 @@ namespace alluvium::observers
             if (s.step == 0)
               exact = (mass / rho - area_fluid) / (s.right - s.left);
             const auto  &report = s.fluid->coupling.report();
-            const double now    = s.step == 0 ? 0. :
-                                                -(report.force_on_grains[0] * s.gravity[0] + report.force_on_grains[1] * s.gravity[1]) /
-                                                  (g_norm * weight);
+            const double now =
+              s.step == 0 ? 0.
+                          : -(report.force_on_grains[0] * s.gravity[0] + report.force_on_grains[1] * s.gravity[1]) /
+                              (g_norm * weight);
             if (!std::isfinite(onset_head) && now >= 1. && s.step > 0)
               {
                 const double part = now > fluid_share ? (1. - fluid_share) / (now - fluid_share) : 1.;
@@ -74,7 +75,8 @@ namespace alluvium::observers
                 onset_time        = s.time - (1. - part) * s.dt;
               }
             // the floor lets go: its force, nearly linear in the head, extrapolated to zero from 2 % of the weight
-            if (!std::isfinite(floor_head) && s.contacts && s.step > 1 && floor_share < 0.02 && last_floor > floor_share)
+            if (!std::isfinite(floor_head) && s.contacts && s.step > 1 && floor_share < 0.02 &&
+                last_floor > floor_share)
               floor_head = s.fluid->head + floor_share * (s.fluid->head - last_head) / (last_floor - floor_share);
             fluid_share = now;
             last_head   = s.fluid->head;
@@ -111,14 +113,22 @@ namespace alluvium::observers
 
       void save(nlohmann::ordered_json &state) const override
       {
-        state = {exact, onset_head, onset_time, floor_head, fluid_share, last_head, last_floor, floor_share, wall_share};
+        state = {
+          exact, onset_head, onset_time, floor_head, fluid_share, last_head, last_floor, floor_share, wall_share};
       }
 
       void load(const nlohmann::ordered_json &state) override
       {
         unsigned int i = 0;
-        for (double *value :
-             {&exact, &onset_head, &onset_time, &floor_head, &fluid_share, &last_head, &last_floor, &floor_share, &wall_share})
+        for (double *value : {&exact,
+                              &onset_head,
+                              &onset_time,
+                              &floor_head,
+                              &fluid_share,
+                              &last_head,
+                              &last_floor,
+                              &floor_share,
+                              &wall_share})
           {
             *value = state[i].is_null() ? std::numeric_limits<double>::quiet_NaN() : state[i].get<double>();
             ++i;
@@ -128,14 +138,15 @@ namespace alluvium::observers
     private:
       static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-      std::string floor = "bottom";
+      std::string floor       = "bottom";
       double      floor_share = 0., wall_share = 0., fluid_share = 0., last_head = 0., last_floor = 1.;
       double      exact = nan, onset_head = nan, onset_time = nan, floor_head = nan;
     };
   } // namespace
 
-  ALLUVIUM_REGISTER_OBSERVER(Support,
-                             "support",
-                             "Forces on the floor, on all walls and of the fluid over the grains' reduced weight; the onset of "
-                             "fluidisation by force balance beside its exact value.")
+  ALLUVIUM_REGISTER_OBSERVER(
+    Support,
+    "support",
+    "Forces on the floor, on all walls and of the fluid over the grains' reduced weight; the onset of "
+    "fluidisation by force balance beside its exact value.")
 } // namespace alluvium::observers

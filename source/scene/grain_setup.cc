@@ -46,22 +46,26 @@ namespace alluvium::scene
   } // namespace
 
 
-
   void GrainSetup::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Grains");
     deposit.add_parameters(prm, "Deposit", "settled bed", "Where the grains are at t = 0.");
-    prm.add_parameter("Density", density, "Density of the grains [kg/m^3], where the deposit does not give it.", Patterns::Double(1e-3));
-    prm.add_parameter("Fluid radius factor",
-                      factor,
-                      "Radius of a grain that the fluid sees, over the radius that touches. Below 1 it makes room for the fluid: discs "
-                      "pack denser (0.82) than spheres (0.6).",
-                      Patterns::Double(1e-3, 1.));
-    prm.add_parameter("Fluid packing fraction",
-                      packing,
-                      "If above 0, choose the fluid radius factor such that the bed, as deposited, has this packing fraction for the "
-                      "fluid: the grains' area over domain width times mean bed height.",
-                      Patterns::Double(0., 0.9));
+    prm.add_parameter("Density",
+                      density,
+                      "Density of the grains [kg/m^3], where the deposit does not give it.",
+                      Patterns::Double(1e-3));
+    prm.add_parameter(
+      "Fluid radius factor",
+      factor,
+      "Radius of a grain that the fluid sees, over the radius that touches. Below 1 it makes room for the fluid: discs "
+      "pack denser (0.82) than spheres (0.6).",
+      Patterns::Double(1e-3, 1.));
+    prm.add_parameter(
+      "Fluid packing fraction",
+      packing,
+      "If above 0, choose the fluid radius factor such that the bed, as deposited, has this packing fraction for the "
+      "fluid: the grains' area over domain width times mean bed height.",
+      Patterns::Double(0., 0.9));
     prm.add_parameter("Mass follows",
                       mass_follows,
                       "Which radius r gives a grain its mass pi r^2 density per unit depth.",
@@ -69,15 +73,14 @@ namespace alluvium::scene
     prm.add_parameter("Fixed", fixed_grains, "Hold all grains where they are; the fluid flows through them.");
     prm.add_parameter("Overlap tolerance",
                       overlap_tolerance,
-                      "Largest overlap at t = 0, between grains or of a grain with a wall, as a part of the smallest diameter; more is an "
+                      "Largest overlap at t = 0, between grains or of a grain with a wall, as a part of the smallest "
+                      "diameter; more is an "
                       "error.",
                       Patterns::Double(0.));
-    prm.add_parameter("Extra walls",
-                      extra_walls,
-                      "Walls inside the domain that only the grains see, as `x1, y1 -> x2, y2; ...` [m].");
+    prm.add_parameter(
+      "Extra walls", extra_walls, "Walls inside the domain that only the grains see, as `x1, y1 -> x2, y2; ...` [m].");
     prm.leave_subsection();
   }
-
 
 
   std::vector<grains::WallSegment> GrainSetup::walls(const mesh::Domain<2> &domain) const
@@ -86,9 +89,9 @@ namespace alluvium::scene
     unsigned int                     n      = 0;
     for (const std::string &item : Utilities::split_string_list(extra_walls, ';'))
       {
-        const auto                arrow = item.find("->");
-        std::vector<double>       x;
-        bool                      good = arrow != std::string::npos;
+        const auto          arrow = item.find("->");
+        std::vector<double> x;
+        bool                good = arrow != std::string::npos;
         if (good)
           for (const std::string &end : {item.substr(0, arrow), item.substr(arrow + 2)})
             for (const std::string &c : Utilities::split_string_list(end, ','))
@@ -110,7 +113,6 @@ namespace alluvium::scene
   }
 
 
-
   grains::GrainArrays GrainSetup::make(MPI_Comm                                communicator,
                                        const mesh::Domain<2>                  &domain,
                                        const std::vector<grains::WallSegment> &walls,
@@ -119,18 +121,20 @@ namespace alluvium::scene
   {
     // one rank makes them, as plain numbers for all
     constexpr unsigned int    n_numbers = 7;
-    const std::vector<double> numbers   = Utilities::MPI::broadcast(communicator, on_first_rank(communicator, [&] {
-      const std::vector<grains::Seed> seeds = deposit.get().make({{{domain.lower()[0], domain.lower()[1]}},
-                                                                    {{domain.upper()[0], domain.upper()[1]}},
-                                                                  walls,
-                                                                  density,
-                                                                  gravity,
-                                                                  directory});
-      std::vector<double>             flat;
-      for (const auto &s : seeds)
-        flat.insert(flat.end(), {s.x, s.y, s.radius, s.density, s.vx, s.vy, s.omega});
-      return flat;
-    }));
+    const std::vector<double> numbers =
+      Utilities::MPI::broadcast(communicator, on_first_rank(communicator, [&] {
+                                  const std::vector<grains::Seed> seeds =
+                                    deposit.get().make({{{domain.lower()[0], domain.lower()[1]}},
+                                                        {{domain.upper()[0], domain.upper()[1]}},
+                                                        walls,
+                                                        density,
+                                                        gravity,
+                                                        directory});
+                                  std::vector<double> flat;
+                                  for (const auto &s : seeds)
+                                    flat.insert(flat.end(), {s.x, s.y, s.radius, s.density, s.vx, s.vy, s.omega});
+                                  return flat;
+                                }));
 
     grains::GrainArrays grains;
     const std::size_t   n = numbers.size() / n_numbers;
@@ -152,9 +156,11 @@ namespace alluvium::scene
           check_user(s[d] >= domain.lower()[d] && s[d] <= domain.upper()[d],
                      "Grains: grain " + std::to_string(i) + " at (" + number(s[0]) + ", " + number(s[1]) +
                        ") m is outside the domain, which reaches from (" + number(domain.lower()[0]) + ", " +
-                       number(domain.lower()[1]) + ") to (" + number(domain.upper()[0]) + ", " + number(domain.upper()[1]) + ") m.");
+                       number(domain.lower()[1]) + ") to (" + number(domain.upper()[0]) + ", " +
+                       number(domain.upper()[1]) + ") m.");
       }
-    grains::check_overlaps(grains, walls, 2. * overlap_tolerance * *std::min_element(grains.radius.begin(), grains.radius.end()));
+    grains::check_overlaps(
+      grains, walls, 2. * overlap_tolerance * *std::min_element(grains.radius.begin(), grains.radius.end()));
     last_factor = find_radius_factor(grains, domain);
     for (std::size_t i = 0; i < n; ++i)
       {
@@ -164,7 +170,6 @@ namespace alluvium::scene
       }
     return grains;
   }
-
 
 
   double GrainSetup::find_radius_factor(const grains::GrainArrays &grains, const mesh::Domain<2> &domain) const

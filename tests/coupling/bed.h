@@ -27,7 +27,7 @@ namespace bed
   /** @p layers of a settled bed of discs 0.2 to 0.24 mm, @p across grains wide, with packing 0.52 for the fluid. */
   inline Bed random_bed(const unsigned int seed, const double across = 30., const double layers = 20.)
   {
-    using Registry = alluvium::Registry<grains::Deposit>;
+    using Registry           = alluvium::Registry<grains::Deposit>;
     auto             deposit = Registry::entries().at("settled bed").create();
     ParameterHandler prm;
     deposit->add_parameters(prm);
@@ -41,9 +41,9 @@ namespace bed
     Bed          b;
     const double bottom = 4. * d;
     double       area   = 0.;
-    b.d      = d;
-    b.width  = width;
-    b.height = layers * d;
+    b.d                 = d;
+    b.width             = width;
+    b.height            = layers * d;
     for (const auto &s : seeds)
       if (s.y > bottom && s.y < bottom + b.height)
         {
@@ -132,14 +132,14 @@ namespace bed
       coupling.step(bc, g, touched, settings.dt, fixed, loads);
     }
 
-    Settings                                   settings;
-    parallel::distributed::Triangulation<2>    tria{MPI_COMM_WORLD};
-    Triangulation<2>                           tria_simplex;
-    fluid::BoundaryConditions<2>               bc;
-    fluid::FluidSpace<2>                       space;
-    fluid::VansSolver<2>                       solver;
-    coupling::Coupling                         coupling;
-    grains::GrainLoads                         loads;
+    Settings                                settings;
+    parallel::distributed::Triangulation<2> tria{MPI_COMM_WORLD};
+    Triangulation<2>                        tria_simplex;
+    fluid::BoundaryConditions<2>            bc;
+    fluid::FluidSpace<2>                    space;
+    fluid::VansSolver<2>                    solver;
+    coupling::Coupling                      coupling;
+    grains::GrainLoads                      loads;
   };
 
   /** Superficial velocity [m/s] of the homogenised law under pressure gradient @p gradient [Pa/m]. */

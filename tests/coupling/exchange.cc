@@ -1,4 +1,5 @@
-// Conservation in the exchange: volumes, the third law for every scheme, rest and buoyancy, the drag laws' closed forms.
+// Conservation in the exchange: volumes, the third law for every scheme, rest and buoyancy, the drag laws' closed
+// forms.
 #include "bed.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +35,8 @@ TEST(OverlapMap, PiecesAddUpToTheGrains)
           // the solid in the void fraction is all there
           double solid = 0., exact = 0.;
           for (unsigned int i = 0; i < channel.space.node_volumes().locally_owned_size(); ++i)
-            solid += channel.space.node_volumes().local_element(i) * (1. - channel.coupling.void_fraction().local_element(i));
+            solid +=
+              channel.space.node_volumes().local_element(i) * (1. - channel.coupling.void_fraction().local_element(i));
           for (const double r : b.grains.fluid_radius)
             exact += numbers::PI * r * r;
           EXPECT_NEAR(solid / exact, 1., 1e-12) << "h/d " << h << " filter " << filter << " triangles " << triangles;
@@ -102,7 +104,8 @@ TEST(Exchange, ThirdLaw)
           channel.coupling.audit();
           const auto &r = channel.coupling.report();
           for (unsigned int d = 0; d < 2; ++d)
-            EXPECT_LT(std::abs(r.force_on_grains[d] + r.force_on_fluid[d]), 1e-12 * r.force_scale) << scheme << " lumped " << lumped;
+            EXPECT_LT(std::abs(r.force_on_grains[d] + r.force_on_fluid[d]), 1e-12 * r.force_scale)
+              << scheme << " lumped " << lumped;
           EXPECT_GT(r.force_scale, 0.);
         }
 }
@@ -114,9 +117,9 @@ TEST(Exchange, HydrostaticRest)
     {
       Settings s;
       s.h_over_d              = h;
-      const double  rho_g     = 1000. * 9.81;
-      const double  overburden = 103e3;
-      Channel       channel(b.width, b.height, h * b.d, s, overburden + rho_g * b.height);
+      const double rho_g      = 1000. * 9.81;
+      const double overburden = 103e3;
+      Channel      channel(b.width, b.height, h * b.d, s, overburden + rho_g * b.height);
       channel.bc.set(3, {Channel::Kind::pressure, "top", std::make_shared<Functions::ConstantFunction<2>>(overburden)});
       channel.solver.gravity[1] = -9.81;
       channel.solver.choose_datum(channel.bc);
@@ -136,12 +139,12 @@ TEST(Exchange, HydrostaticRest)
 
 TEST(DragLaw, ClosedForms)
 {
-  using Registry           = alluvium::Registry<bed::coupling::DragLaw>;
+  using Registry   = alluvium::Registry<bed::coupling::DragLaw>;
   const double eps = 0.48, u = 0.02, d = 2.2e-4, rho = 1000., eta = 1e-3, re = rho * d * u / eta;
   // from the drag coefficient: F = C_D/2 rho S (eps u)^2 eps^-3.8 (with the voidage function), per volume and slip
-  const double c_d    = std::pow(0.63 + 4.8 / std::sqrt(eps * re), 2);
-  const double sphere = 0.5 * c_d * rho * (numbers::PI / 4. * d * d) * eps * eps * u * std::pow(eps, -3.8) /
-                        (numbers::PI / 6. * d * d * d);
+  const double c_d = std::pow(0.63 + 4.8 / std::sqrt(eps * re), 2);
+  const double sphere =
+    0.5 * c_d * rho * (numbers::PI / 4. * d * d) * eps * eps * u * std::pow(eps, -3.8) / (numbers::PI / 6. * d * d * d);
   const double disc = 0.5 * c_d * rho * d * eps * eps * u * std::pow(eps, -3.8) / (numbers::PI / 4. * d * d);
   for (const auto &[name, exact] : {std::make_pair("sphere", sphere), std::make_pair("disc", disc)})
     {

@@ -1,4 +1,5 @@
-// Flux through a fixed random bed against the homogenised (Darcy) law, from cells far coarser than a grain to far finer.
+// Flux through a fixed random bed against the homogenised (Darcy) law, from cells far coarser than a grain to far
+// finer.
 #include "bed.h"
 
 #include <gtest/gtest.h>
@@ -34,8 +35,8 @@ TEST(FixedBed, FluxIsDarcysOnTriangles)
   const bed::Bed b = bed::random_bed(1, 45., 30.);
   for (const double h : {4., 1.})
     {
-      Settings s  = with(h);
-      s.triangles = true;
+      Settings s      = with(h);
+      s.triangles     = true;
       const auto flux = bed::fixed_bed_flux(b, s);
       EXPECT_NEAR(flux.over_darcy, 1., 0.02) << "h/d " << h;
       EXPECT_LT(flux.third_law, 1e-12) << "h/d " << h;
@@ -45,7 +46,8 @@ TEST(FixedBed, FluxIsDarcysOnTriangles)
 // Three beds, all mesh sizes; the paper's own settings beside ours, whatever they give.
 TEST(FixedBedValidation, ThreeSeedsAllSizes)
 {
-  std::printf("| seed | h/d | default | paper (R = r, centroid, consistent drag) | R = r, moments, lumped | R = 1.5 d |\n|---|---|---|---|---|---|\n");
+  std::printf("| seed | h/d | default | paper (R = r, centroid, consistent drag) | R = r, moments, lumped | R = 1.5 d "
+              "|\n|---|---|---|---|---|---|\n");
   for (const unsigned int seed : {1, 2, 3})
     {
       const bed::Bed b = bed::random_bed(seed, 45., 30.);

@@ -1,6 +1,8 @@
-// A homogeneous suspension whose grains and fluid move against each other without net flux: the slip decays with the rate
+// A homogeneous suspension whose grains and fluid move against each other without net flux: the slip decays with the
+// rate
 //   lambda = gamma / (eps (phi rho + eps rho_p)).
-// Schemes converge with first order; those that freeze the grains in the continuity equation are stable only below dt = 2 eps^2 (1-r) tau_p.
+// Schemes converge with first order; those that freeze the grains in the continuity equation are stable only below dt =
+// 2 eps^2 (1-r) tau_p.
 #include "bed.h"
 
 #include <gtest/gtest.h>
@@ -101,8 +103,14 @@ TEST(SlipRelaxation, FirstOrderConvergence)
             const unsigned int n = 16 << k;
             error[k]             = std::abs(Suspension(eps, scheme, time / n).advance(n) - exact);
           }
-        std::printf("eps %.1f %-24s errors %.2e %.2e %.2e orders %.2f %.2f\n", eps, scheme.c_str(), error[0], error[1], error[2],
-                    std::log2(error[0] / error[1]), std::log2(error[1] / error[2]));
+        std::printf("eps %.1f %-24s errors %.2e %.2e %.2e orders %.2f %.2f\n",
+                    eps,
+                    scheme.c_str(),
+                    error[0],
+                    error[1],
+                    error[2],
+                    std::log2(error[0] / error[1]),
+                    std::log2(error[1] / error[2]));
         EXPECT_LT(error[2], 0.05) << scheme;
         EXPECT_NEAR(std::log2(error[1] / error[2]), 1., 0.2) << scheme << " eps " << eps;
       }
@@ -112,7 +120,8 @@ TEST(SlipRelaxation, FrozenGrainsAreUnstableAboveTheLimit)
 {
   for (const double eps : {0.6, 0.48, 0.4})
     {
-      const double tau = rho_p / gamma_value, r = (1. - eps) / (eps * rho_p / rho), limit = 2. * eps * eps * (1. - r) * tau;
+      const double tau = rho_p / gamma_value, r = (1. - eps) / (eps * rho_p / rho),
+                   limit = 2. * eps * eps * (1. - r) * tau;
       EXPECT_LT(std::abs(Suspension(eps, "implicit drag", 0.75 * limit).advance(100)), 1.) << "eps " << eps;
       EXPECT_GT(std::abs(Suspension(eps, "implicit drag", 1.25 * limit).advance(100)), 10.) << "eps " << eps;
     }
@@ -126,6 +135,7 @@ TEST(SlipRelaxation, SemiImplicitHoldsAtHundredTimesTheLimit)
       const double limit = 2. * eps * eps * std::max(1. - r, 0.1) * tau;
       for (const std::string scheme : {"semi-implicit per piece", "semi-implicit per grain"})
         for (const double factor : {2., 100.})
-          EXPECT_LT(std::abs(Suspension(eps, scheme, factor * limit).advance(60)), 1.) << scheme << " eps " << eps << " x " << factor;
+          EXPECT_LT(std::abs(Suspension(eps, scheme, factor * limit).advance(60)), 1.)
+            << scheme << " eps " << eps << " x " << factor;
     }
 }

@@ -10,19 +10,20 @@ namespace alluvium::coupling
   struct CouplingReport
   {
     double                eps_min = 1., eps_max = 1.;
-    double                clipped_volume = 0.;               // [m^2], see OverlapMap::void_fraction()
-    std::array<double, 2> force_on_grains = {{0., 0.}};      // what the fluid gave the grains, weight of displaced fluid aside [N/m]
-    std::array<double, 2> force_on_fluid  = {{0., 0.}};      // what the fluid's equations received [N/m]; only from audit()
-    double                force_scale = 0.;                  // sum of |force| over the grains [N/m]
-    double                momentum_not_received = 0.;        // |sum of G (v^{n+1} - v*)|: see add_grain_response() [N/m]
-    std::size_t           n_pieces = 0;
-    unsigned int          n_iterations = 0;                  // linear, over all sweeps
-    unsigned int          n_loose = 0;                       // solves that stopped above the tolerance
+    double                clipped_volume  = 0.; // [m^2], see OverlapMap::void_fraction()
+    std::array<double, 2> force_on_grains = {
+      {0., 0.}}; // what the fluid gave the grains, weight of displaced fluid aside [N/m]
+    std::array<double, 2> force_on_fluid = {{0., 0.}}; // what the fluid's equations received [N/m]; only from audit()
+    double                force_scale    = 0.;         // sum of |force| over the grains [N/m]
+    double                momentum_not_received = 0.;  // |sum of G (v^{n+1} - v*)|: see add_grain_response() [N/m]
+    std::size_t           n_pieces              = 0;
+    unsigned int          n_iterations          = 0; // linear, over all sweeps
+    unsigned int          n_loose               = 0; // solves that stopped above the tolerance
   };
 
   /**
-   * One coupled fluid step: cut the grains, find the void fraction and the drag, solve the fluid with the grains' predicted velocities,
-   * and give the loads to the grains.
+   * One coupled fluid step: cut the grains, find the void fraction and the drag, solve the fluid with the grains'
+   * predicted velocities, and give the loads to the grains.
    */
   class Coupling
   {
@@ -42,8 +43,8 @@ namespace alluvium::coupling
     void update_void_fraction(const grains::GrainArrays &grains);
 
     /**
-     * Solve the fluid from t^n to t^n + @p dt and fill @p loads. @p boundary_conditions are at the new time. @p fixed grains neither
-     * move nor yield. Collective.
+     * Solve the fluid from t^n to t^n + @p dt and fill @p loads. @p boundary_conditions are at the new time. @p fixed
+     * grains neither move nor yield. Collective.
      */
     void step(const fluid::BoundaryConditions<dim> &boundary_conditions,
               const grains::GrainArrays            &grains,
@@ -53,17 +54,19 @@ namespace alluvium::coupling
               grains::GrainLoads                   &loads);
 
     /**
-     * Tell what the grains made of the loads: where their drag was implicit, they got G (v^{n+1} - v*) that the fluid did not see.
+     * Tell what the grains made of the loads: where their drag was implicit, they got G (v^{n+1} - v*) that the fluid
+     * did not see.
      */
     void add_grain_response(const grains::GrainArrays &grains, const grains::GrainLoads &loads);
 
     /** Complete the report with the sums that cost an assembly. */
     void audit();
 
-    const CouplingReport                     &report() const { return last; }
-    const fluid::Vector                      &void_fraction() const { return eps; }
-    const OverlapMap                         &overlap() const { return map; }
-    /** Force of the fluid on each grain in the last step, buoyancy of the hydrostatic pressure aside [N/m]; replicated. */
+    const CouplingReport &report() const { return last; }
+    const fluid::Vector  &void_fraction() const { return eps; }
+    const OverlapMap     &overlap() const { return map; }
+    /** Force of the fluid on each grain in the last step, buoyancy of the hydrostatic pressure aside [N/m]; replicated.
+     */
     const std::vector<std::array<double, 2>> &fluid_force() const { return force; }
     /** The velocity v* that the fluid saw, averaged over each grain's pieces [m/s]; replicated. */
     const std::vector<std::array<double, 2>> &predicted_velocity() const { return predicted; }

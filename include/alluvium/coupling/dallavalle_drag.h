@@ -9,8 +9,9 @@ namespace alluvium::coupling
    *
    *   gamma = factor * shape * eps^-n (a sqrt(eps Re) + b)^2 eta / d^2,   Re = rho d |u - v| / eta
    *
-   * with shape = S d / 2V (S frontal area, V volume): 3/4 for a sphere, 2/pi for a disc. n is 2.8 (constant exponent 3.8), or
-   * Di Felice's n = beta - 1, beta = 3.7 - 0.65 exp(-(1.5 - log10(eps Re))^2 / 2) (Int. J. Multiphase Flow 20, 1994).
+   * with shape = S d / 2V (S frontal area, V volume): 3/4 for a sphere, 2/pi for a disc. n is 2.8 (constant
+   * exponent 3.8), or Di Felice's n = beta - 1, beta = 3.7 - 0.65 exp(-(1.5 - log10(eps Re))^2 / 2) (Int. J. Multiphase
+   * Flow 20, 1994).
    */
   class DallavalleDrag : public DragLaw
   {

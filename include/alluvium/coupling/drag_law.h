@@ -15,8 +15,8 @@ namespace alluvium::coupling
   };
 
   /**
-   * Interface of the drag closures: f_drag = gamma (u - v), a force density per volume of grain (model A: the pressure gradient acts
-   * on the grain besides).
+   * Interface of the drag closures: f_drag = gamma (u - v), a force density per volume of grain (model A: the pressure
+   * gradient acts on the grain besides).
    */
   class DragLaw
   {
@@ -30,4 +30,5 @@ namespace alluvium::coupling
 } // namespace alluvium::coupling
 
 /** Register a drag law under the name that parameter files use; see doc/architecture.md. */
-#define ALLUVIUM_REGISTER_DRAG_LAW(Class, name, prose) ALLUVIUM_REGISTER(::alluvium::coupling::DragLaw, Class, name, prose)
+#define ALLUVIUM_REGISTER_DRAG_LAW(Class, name, prose)                                                                 \
+  ALLUVIUM_REGISTER(::alluvium::coupling::DragLaw, Class, name, prose)

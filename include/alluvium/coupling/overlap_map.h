@@ -20,9 +20,9 @@ namespace alluvium::coupling
   };
 
   /**
-   * The grains cut by the fluid's cells (paper (9)-(11), figure 1). Every piece knows its grain, its area (rescaled so that a grain's
-   * pieces add up to its volume V = pi r_fluid^2, also where the filter's disc leaves the domain) and the means of the shape
-   * functions over it. Pieces are sorted by cell, and by grain within a cell.
+   * The grains cut by the fluid's cells (paper (9)-(11), figure 1). Every piece knows its grain, its area (rescaled so
+   * that a grain's pieces add up to its volume V = pi r_fluid^2, also where the filter's disc leaves the domain) and
+   * the means of the shape functions over it. Pieces are sorted by cell, and by grain within a cell.
    */
   class OverlapMap
   {
@@ -44,9 +44,9 @@ namespace alluvium::coupling
     const std::vector<unsigned int> &grain() const { return grain_of_piece; }
 
     /**
-     * Row-sum lumped void fraction (9): 1 - sum over pieces of A phi_i / integral of phi_i. Where that falls below zero (never with the
-     * moments rule on parallelograms), it is set to zero and the solid in excess goes to the neighbouring nodes.
-     * Returns the volume moved so [m^2]. Collective.
+     * Row-sum lumped void fraction (9): 1 - sum over pieces of A phi_i / integral of phi_i. Where that falls below zero
+     * (never with the moments rule on parallelograms), it is set to zero and the solid in excess goes to the
+     * neighbouring nodes. Returns the volume moved so [m^2]. Collective.
      */
     double void_fraction(fluid::Vector &eps) const;
 
@@ -54,7 +54,8 @@ namespace alluvium::coupling
     void sum_over_ranks(std::vector<double> &per_grain) const;
 
   private:
-    void add_piece(const unsigned int cell, const unsigned int grain, const geometry::Overlap &overlap, const bool moments);
+    void
+    add_piece(const unsigned int cell, const unsigned int grain, const geometry::Overlap &overlap, const bool moments);
 
     const fluid::FluidSpace<dim>          *space;
     std::vector<geometry::PreparedPolygon> polygons;

@@ -12,31 +12,31 @@ namespace alluvium::coupling
   };
 
   /** Mean velocity and pressure gradient of @p field over each piece of @p map. */
-  std::vector<PieceField> evaluate(const OverlapMap              &map,
-                                   const fluid::FluidSpace<2>    &space,
-                                   const fluid::BlockVector      &field);
+  std::vector<PieceField>
+  evaluate(const OverlapMap &map, const fluid::FluidSpace<2> &space, const fluid::BlockVector &field);
 
-  /** All that a time scheme may know at the start of a step. Per-piece arrays follow the overlap map, per-grain ones the grains. */
+  /** All that a time scheme may know at the start of a step. Per-piece arrays follow the overlap map, per-grain ones
+   * the grains. */
   struct CouplingState
   {
-    const grains::GrainArrays      &grains;
+    const grains::GrainArrays       &grains;
     const std::vector<std::uint8_t> &touched; // had a contact impulse in the last step
-    const OverlapMap               &map;
-    double                          dt;            // [s]
-    std::array<double, 2>           gravity;       // [m/s^2]
-    double                          fluid_density; // [kg/m^3]
-    std::vector<double>             gamma;         // drag per piece [N s/m^4]
-    std::vector<PieceField>         old, latest;   // t^n on the new pieces; after the latest sweep
+    const OverlapMap                &map;
+    double                           dt;            // [s]
+    std::array<double, 2>            gravity;       // [m/s^2]
+    double                           fluid_density; // [kg/m^3]
+    std::vector<double>              gamma;         // drag per piece [N s/m^4]
+    std::vector<PieceField>          old, latest;   // t^n on the new pieces; after the latest sweep
 
     double volume(const std::size_t g) const;
     /** Weight less buoyancy [N/m]: gravity acts on the grain, the hydrostatic part of the pressure is not in p. */
     std::array<double, 2> reduced_weight(const std::size_t g) const;
-    std::size_t n_pieces() const { return map.grain().size(); }
+    std::size_t           n_pieces() const { return map.grain().size(); }
   };
 
   /**
-   * Interface of the coupling schemes: they say how a piece's velocity depends on the fluid during the step, sweep by sweep, and what
-   * acts on the grains afterwards.
+   * Interface of the coupling schemes: they say how a piece's velocity depends on the fluid during the step, sweep by
+   * sweep, and what acts on the grains afterwards.
    */
   class TimeScheme
   {
@@ -48,22 +48,22 @@ namespace alluvium::coupling
     virtual unsigned int n_sweeps() const { return 1; }
 
     /**
-     * Fill the exchange terms of all pieces for @p sweep = 0, 1, ... Reference field 0 is none, 1 the velocity at t^n, 2
-     * that of the latest sweep. Collective.
+     * Fill the exchange terms of all pieces for @p sweep = 0, 1, ... Reference field 0 is none, 1 the velocity at t^n,
+     * 2 that of the latest sweep. Collective.
      */
-    virtual void exchange_terms(const CouplingState                       &state,
-                                const unsigned int                         sweep,
+    virtual void exchange_terms(const CouplingState                  &state,
+                                const unsigned int                    sweep,
                                 std::vector<fluid::PieceExchange<2>> &exchange) const = 0;
 
     /**
-     * Loads of the grains from @p force, what the fluid gave each grain [N/m], and the final state (state.latest): by default the
-     * reduced weight plus that force, drag explicit.
+     * Loads of the grains from @p force, what the fluid gave each grain [N/m], and the final state (state.latest): by
+     * default the reduced weight plus that force, drag explicit.
      */
-    virtual void loads(const CouplingState                             &state,
-                       const std::vector<std::array<double, 2>> &force,
-                       grains::GrainLoads                              &loads) const;
+    virtual void
+    loads(const CouplingState &state, const std::vector<std::array<double, 2>> &force, grains::GrainLoads &loads) const;
   };
 } // namespace alluvium::coupling
 
 /** Register a time scheme under the name that parameter files use. */
-#define ALLUVIUM_REGISTER_TIME_SCHEME(Class, name, prose) ALLUVIUM_REGISTER(::alluvium::coupling::TimeScheme, Class, name, prose)
+#define ALLUVIUM_REGISTER_TIME_SCHEME(Class, name, prose)                                                              \
+  ALLUVIUM_REGISTER(::alluvium::coupling::TimeScheme, Class, name, prose)

@@ -40,9 +40,9 @@ namespace alluvium::fluid
     void add_parameters(dealii::ParameterHandler &prm);
 
     /**
-     * Resolve the parsed names and expressions. @p ids maps boundary names to ids; @p constants are names that expressions may
-     * use (rho, g, H, L, pi, ...). Throws UserError for a name that the mesh has not, a boundary with no or two conditions, or a
-     * pressure that is nowhere fixed.
+     * Resolve the parsed names and expressions. @p ids maps boundary names to ids; @p constants are names that
+     * expressions may use (rho, g, H, L, pi, ...). Throws UserError for a name that the mesh has not, a boundary with
+     * no or two conditions, or a pressure that is nowhere fixed.
      */
     void initialize(const std::map<std::string, dealii::types::boundary_id> &ids,
                     const std::map<std::string, double>                     &constants);

@@ -24,16 +24,17 @@ namespace alluvium::fluid
   {
     static constexpr unsigned int n = max_nodes<dim>;
 
-    double                                                      measure, size; // [m^dim], [m]
-    std::array<std::array<std::array<double, dim>, n>, n>       grad;          // [quadrature point][node]
-    std::array<double, n>                                       jxw;
-    std::array<std::array<unsigned int, dim>, n>                velocity; // local indices in block 0
-    std::array<unsigned int, n>                                 pressure; // in block 1
-    std::array<unsigned int, n>                                 node;     // in scalar nodal fields
-    std::array<dealii::Point<dim>, n>                           vertex;
-    std::array<dealii::types::global_dof_index, n *(dim + 1)>   dofs; // global; [node * (dim+1) + component], component dim: p
-    bool                                                        constrained; // does any dof carry a constraint?
-    bool                                                        parallelogram;
+    double                                                measure, size; // [m^dim], [m]
+    std::array<std::array<std::array<double, dim>, n>, n> grad;          // [quadrature point][node]
+    std::array<double, n>                                 jxw;
+    std::array<std::array<unsigned int, dim>, n>          velocity; // local indices in block 0
+    std::array<unsigned int, n>                           pressure; // in block 1
+    std::array<unsigned int, n>                           node;     // in scalar nodal fields
+    std::array<dealii::Point<dim>, n>                     vertex;
+    std::array<dealii::types::global_dof_index, n *(dim + 1)>
+         dofs;        // global; [node * (dim+1) + component], component dim: p
+    bool constrained; // does any dof carry a constraint?
+    bool parallelogram;
   };
 
   /**
@@ -63,8 +64,8 @@ namespace alluvium::fluid
     Vector      make_nodal_field() const; // scalar, ghosted, zero
 
     /**
-     * Set @p field's boundary values at the time of @p boundary_conditions, then its hanging nodes. The reduced pressure is
-     * p - rho g.x - @p datum, with @p hydrostatic_gradient = rho g.
+     * Set @p field's boundary values at the time of @p boundary_conditions, then its hanging nodes. The reduced
+     * pressure is p - rho g.x - @p datum, with @p hydrostatic_gradient = rho g.
      */
     void apply_boundary_values(const BoundaryConditions<dim> &boundary_conditions,
                                const dealii::Tensor<1, dim>  &hydrostatic_gradient,
@@ -72,8 +73,8 @@ namespace alluvium::fluid
                                BlockVector                   &field) const;
 
     /**
-     * The prescribed p - rho g.x at one node, the same on all ranks: a datum that spares the linear solver large constants. Zero
-     * if no boundary has a pressure. Collective.
+     * The prescribed p - rho g.x at one node, the same on all ranks: a datum that spares the linear solver large
+     * constants. Zero if no boundary has a pressure. Collective.
      */
     double pressure_datum(const BoundaryConditions<dim> &boundary_conditions,
                           const dealii::Tensor<1, dim>  &hydrostatic_gradient) const;
@@ -95,8 +96,8 @@ namespace alluvium::fluid
     const dealii::IndexSet              &relevant_dofs() const { return relevant_all; }
 
     /**
-     * A test function that is 1 on the nodes of one boundary and 0 on all others, on the cells where it does not vanish.
-     * The residual of the continuity equation against it is the flux through that boundary.
+     * A test function that is 1 on the nodes of one boundary and 0 on all others, on the cells where it does not
+     * vanish. The residual of the continuity equation against it is the flux through that boundary.
      */
     struct BoundaryWeight
     {
@@ -111,9 +112,9 @@ namespace alluvium::fluid
     /** A face with prescribed velocity, through which the continuity equation needs the flux. */
     struct InflowFace
     {
-      unsigned int                                                     cell;
-      std::vector<std::array<double, max_nodes<dim>>>                  phi; // [quadrature point][node of the cell]
-      std::vector<dealii::Tensor<1, dim>>                              normal_jxw;
+      unsigned int                                    cell;
+      std::vector<std::array<double, max_nodes<dim>>> phi; // [quadrature point][node of the cell]
+      std::vector<dealii::Tensor<1, dim>>             normal_jxw;
     };
     const std::vector<InflowFace> &inflow_faces() const { return inflow; }
 
@@ -127,18 +128,18 @@ namespace alluvium::fluid
     void make_constraints(const BoundaryConditions<dim> &boundary_conditions);
     void cache_cells();
 
-    const dealii::Triangulation<dim>                      *tria = nullptr;
-    std::unique_ptr<dealii::Mapping<dim>>                  map;
-    std::unique_ptr<dealii::FiniteElement<dim>>            scalar_fe, system_fe;
-    dealii::DoFHandler<dim>                                dofs, nodal_dofs;
-    dealii::AffineConstraints<double>                      system_constraints, hanging, nodal_hanging;
-    std::vector<dealii::IndexSet>                          owned_blocks, relevant_blocks;
-    dealii::IndexSet                                       relevant_all;
+    const dealii::Triangulation<dim>           *tria = nullptr;
+    std::unique_ptr<dealii::Mapping<dim>>       map;
+    std::unique_ptr<dealii::FiniteElement<dim>> scalar_fe, system_fe;
+    dealii::DoFHandler<dim>                     dofs, nodal_dofs;
+    dealii::AffineConstraints<double>           system_constraints, hanging, nodal_hanging;
+    std::vector<dealii::IndexSet>               owned_blocks, relevant_blocks;
+    dealii::IndexSet                            relevant_all;
 
-    unsigned int                                                  n_nodes = 0, n_q = 0;
+    unsigned int                                                   n_nodes = 0, n_q = 0;
     std::array<std::array<double, max_nodes<dim>>, max_nodes<dim>> shapes;
-    std::vector<CellData<dim>>                                    cell_data;
-    Vector                                                        volumes;
+    std::vector<CellData<dim>>                                     cell_data;
+    Vector                                                         volumes;
 
     /** A dof whose value a boundary condition gives: a component of the boundary's function at a point. */
     struct BoundaryDof
@@ -152,7 +153,7 @@ namespace alluvium::fluid
     std::map<dealii::types::boundary_id, std::vector<BoundaryWeight>> boundary_weights;
     std::vector<InflowFace>                                           inflow;
 
-    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> nodal_partitioner;
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner>              nodal_partitioner;
     std::vector<std::shared_ptr<const dealii::Utilities::MPI::Partitioner>> partitioners;
   };
 } // namespace alluvium::fluid

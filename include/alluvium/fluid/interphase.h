@@ -20,9 +20,9 @@ namespace alluvium::fluid
   };
 
   /**
-   * What a piece of the solid exchanges with the fluid, per unit of its area. With b = gamma * compliance its velocity is
-   *   v = a + b (u - u_ref) - compliance * grad p     (paper (15) for `semi-implicit`; a alone for the others)
-   * and the force density on the solid is  gamma (u - v) + e - grad p, p the reduced pressure.
+   * What a piece of the solid exchanges with the fluid, per unit of its area. With b = gamma * compliance its velocity
+   * is v = a + b (u - u_ref) - compliance * grad p     (paper (15) for `semi-implicit`; a alone for the others) and the
+   * force density on the solid is  gamma (u - v) + e - grad p, p the reduced pressure.
    */
   template <int dim>
   struct PieceExchange
@@ -31,7 +31,7 @@ namespace alluvium::fluid
     double                  compliance = 0.; // [m^4/(N s)]
     std::array<double, dim> a          = {}; // known part of the solid velocity [m/s]
     std::array<double, dim> e          = {}; // explicit force density on the solid [N/m^3]
-    std::uint8_t            reference  = 0;  // which of VansProblem's reference velocity fields u_ref is; 0: none, u_ref = 0
+    std::uint8_t reference = 0; // which of VansProblem's reference velocity fields u_ref is; 0: none, u_ref = 0
   };
 
   /** The solid as the fluid sees it: pieces sorted by cell, in the order of FluidSpace::cells(). */

@@ -13,7 +13,7 @@ namespace alluvium::fluid
     unsigned int n_iterations = 0;
     bool         rebuilt      = false;
     bool         loose        = false; // stopped above the tolerance, at an acceptable residual
-    double       residual     = 0.; // relative to the equations' terms
+    double       residual     = 0.;    // relative to the equations' terms
   };
 
   /**
@@ -31,7 +31,8 @@ namespace alluvium::fluid
 
     /**
      * Solve matrix * x = right_hand_side until the residual is below the tolerance times @p scale, the norms of the two
-     * equations' terms. Where GMRES stalls above it but below 1e-5, the report says `loose`; throws if it cannot do that either.
+     * equations' terms. Where GMRES stalls above it but below 1e-5, the report says `loose`; throws if it cannot do
+     * that either.
      */
     LinearSolverReport solve(const dealii::TrilinosWrappers::BlockSparseMatrix &matrix,
                              const BlockVector                                 &right_hand_side,
@@ -46,10 +47,10 @@ namespace alluvium::fluid
   private:
     void build(const dealii::TrilinosWrappers::BlockSparseMatrix &matrix);
 
-    bool                                       fresh = false, exists = false;
-    unsigned int                               n_when_fresh = 0;
-    std::unique_ptr<Epetra_CrsMatrix>          schur;
-    dealii::TrilinosWrappers::PreconditionILU  velocity;
-    dealii::TrilinosWrappers::PreconditionAMG  pressure;
+    bool                                      fresh = false, exists = false;
+    unsigned int                              n_when_fresh = 0;
+    std::unique_ptr<Epetra_CrsMatrix>         schur;
+    dealii::TrilinosWrappers::PreconditionILU velocity;
+    dealii::TrilinosWrappers::PreconditionAMG pressure;
   };
 } // namespace alluvium::fluid

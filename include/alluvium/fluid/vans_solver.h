@@ -7,7 +7,8 @@ namespace alluvium::fluid
 {
   /**
    * One time step of the volume-averaged Navier-Stokes equations, cut where the coupling needs it: begin_step() takes
-   * the boundary values of the new time, solve() assembles and solves, solve_again() changes only the pieces' known terms.
+   * the boundary values of the new time, solve() assembles and solves, solve_again() changes only the pieces' known
+   * terms.
    */
   template <int dim>
   class VansSolver
@@ -21,8 +22,8 @@ namespace alluvium::fluid
     void reinit();
 
     /**
-     * Start the step from t^n to t^n + dt; the boundary conditions' time is already the new one. @p problem's pointers must stay valid
-     * until the step is over; its `old` is set here.
+     * Start the step from t^n to t^n + dt; the boundary conditions' time is already the new one. @p problem's pointers
+     * must stay valid until the step is over; its `old` is set here.
      */
     void begin_step(const BoundaryConditions<dim> &boundary_conditions, const VansProblem<dim> &problem);
 
@@ -55,21 +56,21 @@ namespace alluvium::fluid
     const LinearSolverReport &last_report() const { return report; }
 
     /**
-     * Choose the pressure's datum from the boundary conditions at the start of a run; total pressure = reduced pressure + rho g.x +
-     * datum(). A restart takes that of the interrupted run.
+     * Choose the pressure's datum from the boundary conditions at the start of a run; total pressure = reduced pressure
+     * + rho g.x + datum(). A restart takes that of the interrupted run.
      */
     void   choose_datum(const BoundaryConditions<dim> &boundary_conditions);
     void   set_datum(const double value) { pressure_datum = value; }
     double datum() const { return pressure_datum; }
 
-    FluidProperties properties;
+    FluidProperties        properties;
     dealii::Tensor<1, dim> gravity;
-    Discretisation  discretisation;
-    LinearSolver    linear_solver;
+    Discretisation         discretisation;
+    LinearSolver           linear_solver;
 
   private:
-    void solve_with_new_known_terms();
-    void solve_increment();
+    void                  solve_with_new_known_terms();
+    void                  solve_increment();
     std::array<double, 2> term_scale() const;
 
     const FluidSpace<dim> *space;

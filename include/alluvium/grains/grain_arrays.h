@@ -9,21 +9,21 @@ namespace alluvium::grains
   using GrainId = std::uint32_t;
 
   /**
-   * The grains as plain contiguous arrays, sorted by id: what the contact solver and the coupling loop over. The persistent
-   * owner is GrainStore (deal.II's ParticleHandler), which gathers into this once a fluid step and scatters back.
-   * SI units, per unit depth; all vectors have n() entries.
+   * The grains as plain contiguous arrays, sorted by id: what the contact solver and the coupling loop over. The
+   * persistent owner is GrainStore (deal.II's ParticleHandler), which gathers into this once a fluid step and scatters
+   * back. SI units, per unit depth; all vectors have n() entries.
    */
   struct GrainArrays
   {
     std::vector<GrainId> id;
-    std::vector<double>  x, y;           // centre [m]
-    std::vector<double>  radius;         // contact radius [m]: what touches
-    std::vector<double>  fluid_radius;   // what the fluid sees [m]
-    std::vector<double>  mass;           // [kg/m]
-    std::vector<double>  vx, vy;         // [m/s]
-    std::vector<double>  omega;          // [rad/s], anticlockwise
-    std::vector<double>  fcx, fcy;       // mean contact force over the last fluid step [N/m]
-    std::vector<double>  x0, y0;         // where the grain was at t = 0 [m]
+    std::vector<double>  x, y;         // centre [m]
+    std::vector<double>  radius;       // contact radius [m]: what touches
+    std::vector<double>  fluid_radius; // what the fluid sees [m]
+    std::vector<double>  mass;         // [kg/m]
+    std::vector<double>  vx, vy;       // [m/s]
+    std::vector<double>  omega;        // [rad/s], anticlockwise
+    std::vector<double>  fcx, fcy;     // mean contact force over the last fluid step [N/m]
+    std::vector<double>  x0, y0;       // where the grain was at t = 0 [m]
 
     std::size_t n() const { return x.size(); }
 

@@ -68,8 +68,8 @@ namespace alluvium::grains
     std::size_t n_rescued() const;
 
     /**
-     * Give @p use the local grains as points for output, with fields id, radius [m], displacement since t = 0 [m], velocity
-     * [m/s], angular_velocity [rad/s], contact_force [N/m]. Collective if @p use is.
+     * Give @p use the local grains as points for output, with fields id, radius [m], displacement since t = 0 [m],
+     * velocity [m/s], angular_velocity [rad/s], contact_force [N/m]. Collective if @p use is.
      */
     void output(const std::function<void(dealii::DataOutInterface<0, 2> &)> &use) const;
 

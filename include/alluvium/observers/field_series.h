@@ -16,8 +16,8 @@ namespace dealii
 namespace alluvium::observers
 {
   /**
-   * Fields for ParaView over time: one .vtu file an output whatever the number of ranks, listed with their times in a .pvd file;
-   * or HDF5 files listed in a .xdmf file, for big runs.
+   * Fields for ParaView over time: one .vtu file an output whatever the number of ranks, listed with their times in a
+   * .pvd file; or HDF5 files listed in a .xdmf file, for big runs.
    */
   class FieldSeries
   {

@@ -37,8 +37,8 @@ namespace alluvium::observers
   };
 
   /**
-   * Interface of the plug-ins that measure. They may look at everything and change nothing; what they find goes into the
-   * columns of statistics.csv and into summary.json.
+   * Interface of the plug-ins that measure. They may look at everything and change nothing; what they find goes into
+   * the columns of statistics.csv and into summary.json.
    */
   class Observer
   {
@@ -67,4 +67,5 @@ namespace alluvium::observers
 } // namespace alluvium::observers
 
 /** Register an observer under the name that parameter files use. */
-#define ALLUVIUM_REGISTER_OBSERVER(Class, name, prose) ALLUVIUM_REGISTER(::alluvium::observers::Observer, Class, name, prose)
+#define ALLUVIUM_REGISTER_OBSERVER(Class, name, prose)                                                                 \
+  ALLUVIUM_REGISTER(::alluvium::observers::Observer, Class, name, prose)

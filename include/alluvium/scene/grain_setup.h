@@ -9,7 +9,8 @@
 
 namespace alluvium::scene
 {
-  /** Section "Grains" of the parameter file: where they are at t = 0, what they weigh, and what the fluid sees of them. */
+  /** Section "Grains" of the parameter file: where they are at t = 0, what they weigh, and what the fluid sees of them.
+   */
   class GrainSetup
   {
   public:
@@ -19,8 +20,8 @@ namespace alluvium::scene
     std::vector<grains::WallSegment> walls(const mesh::Domain<2> &domain) const;
 
     /**
-     * Make the deposit (on one rank) and check it: every grain inside the domain, no overlap beyond the tolerance. Throws
-     * UserError. Collective.
+     * Make the deposit (on one rank) and check it: every grain inside the domain, no overlap beyond the tolerance.
+     * Throws UserError. Collective.
      */
     grains::GrainArrays make(MPI_Comm                                communicator,
                              const mesh::Domain<2>                  &domain,

@@ -34,7 +34,8 @@ namespace alluvium
       return all;
     }
 
-    static bool add(const std::string &name, const std::string &prose, std::function<std::unique_ptr<Interface>()> create)
+    static bool
+    add(const std::string &name, const std::string &prose, std::function<std::unique_ptr<Interface>()> create)
     {
       return entries().emplace(name, Entry{prose, std::move(create)}).second;
     }
@@ -44,16 +45,16 @@ namespace alluvium
    * Register @p Class as a plug-in of kind @p Interface. Write it once, at namespace scope in the plug-in's own .cc;
    * no other file needs to know.
    */
-#define ALLUVIUM_REGISTER(Interface, Class, name, prose)                                     \
-  namespace                                                                                  \
-  {                                                                                          \
-    [[maybe_unused]] const bool registered_##Class =                                         \
-      ::alluvium::Registry<Interface>::add(name, prose, [] { return std::make_unique<Class>(); }); \
+#define ALLUVIUM_REGISTER(Interface, Class, name, prose)                                                               \
+  namespace                                                                                                            \
+  {                                                                                                                    \
+    [[maybe_unused]] const bool registered_##Class =                                                                   \
+      ::alluvium::Registry<Interface>::add(name, prose, [] { return std::make_unique<Class>(); });                     \
   }
 
   /**
-   * One plug-in chosen by name, or several. Declares the choice and a subsection with each registered plug-in's own parameters
-   * (a plug-in without parameters leaves no trace), so that --print-parameters shows them all by themselves.
+   * One plug-in chosen by name, or several. Declares the choice and a subsection with each registered plug-in's own
+   * parameters (a plug-in without parameters leaves no trace), so that --print-parameters shows them all by themselves.
    */
   template <class Interface>
   class PluginChoice
