@@ -611,8 +611,13 @@ namespace alluvium
     write_checked_file(communicator, folder_new + "/state", "state", text);
     if (speaks)
       {
-        std::filesystem::remove_all(final);
+        // whenever the machine stops, there is a whole checkpoint: the new one or the one before
+        const std::string before = final + ".before";
+        std::filesystem::remove_all(before);
+        if (std::filesystem::exists(final))
+          std::filesystem::rename(final, before);
         std::filesystem::rename(folder_new, final);
+        std::filesystem::remove_all(before);
       }
     MPI_Barrier(communicator);
   }
@@ -620,7 +625,8 @@ namespace alluvium
 
   void Simulation::Implementation::read_checkpoint()
   {
-    const std::string from = checkpoint_folder();
+    const std::string newest = checkpoint_folder(),
+                      from   = std::filesystem::exists(newest) ? newest : newest + ".before";
     check_user(std::filesystem::is_directory(from),
                "Output/Restart: there is no checkpoint in '" + folder.path() + "'.");
     const std::string      text = read_checked_file(communicator, from + "/state", "state");
