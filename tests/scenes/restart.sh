@@ -11,6 +11,7 @@ two_parts() {
   must_run 1 bed.prm "${common[@]}" "${whole[@]}" --set 'Output/Output folder=whole'
   must_run 1 bed.prm "${common[@]}" "${every[@]}" --set 'Output/Output folder=half' --set 'Time/End time=0.01'
   [ -d half/checkpoint ] || fail "no checkpoint"
+  [ $kind != dry ] || mv half/checkpoint half/checkpoint.before # as if killed while a new one took its place
   cp half/statistics.csv first-half.csv
   must_run "$1" bed.prm "${common[@]}" "${every[@]}" --set 'Output/Output folder=half' --set 'Output/Restart=true'
   [ "$(wc -l <half/statistics.csv)" -eq 22 ] || fail "expected a header and 21 rows"
