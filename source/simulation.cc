@@ -541,8 +541,6 @@ namespace alluvium
     summary->set("run/ranks", Utilities::MPI::n_mpi_processes(communicator));
     summary->set("domain/lower_m", std::vector<double>{domain.lower()[0], domain.lower()[1]});
     summary->set("domain/upper_m", std::vector<double>{domain.upper()[0], domain.upper()[1]});
-    summary->set("domain/lower_m", std::vector<double>{domain.lower()[0], domain.lower()[1]});
-    summary->set("domain/upper_m", std::vector<double>{domain.upper()[0], domain.upper()[1]});
     summary->set("scene/grains", grains.n());
     if (has_fluid)
       {

@@ -33,10 +33,7 @@ namespace alluvium::fluid
 
       void vmult(BlockVector &dst, const BlockVector &src) const
       {
-        matrix.block(0, 0).vmult(dst.block(0), src.block(0));
-        matrix.block(0, 1).vmult_add(dst.block(0), src.block(1));
-        matrix.block(1, 0).vmult(dst.block(1), src.block(0));
-        matrix.block(1, 1).vmult_add(dst.block(1), src.block(1));
+        matrix.vmult(dst, src);
         dst.block(1) *= scale;
       }
     };

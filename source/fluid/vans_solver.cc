@@ -114,10 +114,7 @@ namespace alluvium::fluid
           attempt = 3; // no better with a second try
         if (solve.n_iterations == 0)
           return;
-        assembler.matrix().block(0, 0).vmult(product.block(0), increment.block(0));
-        assembler.matrix().block(0, 1).vmult_add(product.block(0), increment.block(1));
-        assembler.matrix().block(1, 0).vmult(product.block(1), increment.block(0));
-        assembler.matrix().block(1, 1).vmult_add(product.block(1), increment.block(1));
+        assembler.matrix().vmult(product, increment);
         residual -= product;
         iterate.zero_out_ghost_values();
         space->constraints().distribute(increment);

@@ -34,8 +34,6 @@ namespace alluvium::observers
             energy += 0.5 * (g.mass[i] * v2 + grains::disc_inertia(g.mass[i], g.radius[i]) * g.omega[i] * g.omega[i]);
           }
         height = mean_height(mesh::find_bed_faces(g, s.left, s.right));
-        if (s.step == 0)
-          initial_height = height;
         statistics.set("bed_height_m", height);
         statistics.set("largest_grain_velocity_m_per_s", fastest);
         statistics.set("kinetic_energy_J_per_m", energy);
@@ -58,7 +56,7 @@ namespace alluvium::observers
         return bed.columns.empty() ? 0. : sum / bed.columns.size();
       }
 
-      double height = 0., initial_height = 0.;
+      double height = 0.;
     };
   } // namespace
 
