@@ -37,15 +37,14 @@ namespace alluvium::grains
 
     ContactSolution solve(ContactProblem &problem, const ContactTolerance &tolerance) const override
     {
-      ContactSolution   solution;
-      const std::size_t n_discs = problem.mass.size();
+      ContactSolution solution;
       apply_impulses(problem);
-      last.assign(problem.velocity.begin(), problem.velocity.begin() + n_discs);
-      for (Contact &c : problem.contacts)
-        {
-          c.last_rn = c.rn;
-          c.last_rt = c.rt;
-        }
+      ContactMeasure measure(problem);
+      last.clear();
+      for (const Contact &c : problem.contacts)
+        last.push_back({c.rn, c.rt});
+      for (Disc &d : problem.discs)
+        remember(d);
 
       double       t = 1., beta = 0., cap = 1., objective = std::numeric_limits<double>::max();
       double       last_change  = std::numeric_limits<double>::max();
@@ -55,18 +54,18 @@ namespace alluvium::grains
         {
           if (iteration > 0)
             extrapolate(problem, beta);
-          SweepSums sums = sweep<true, true>(problem, beta);
+          SweepSums sums = sweep(problem, measure, SweepOrder::forward, last.data(), beta);
           ++solution.sweeps;
           if (solution.sweeps > forward_sweeps)
             {
-              sums = sweep<false, false>(problem);
+              sums = sweep(problem, measure, SweepOrder::backward);
               ++solution.sweeps;
             }
 
-          const double change = relative_change(sums, problem);
+          const double change = measure.relative_change(sums);
           if (change <= tolerance.allowance(solution.sweeps) * tolerance.residual)
             {
-              measure_residual(problem, solution);
+              measure_residual(measure, solution);
               if (solution.meets(tolerance))
                 {
                   solution.converged = true;
@@ -83,7 +82,7 @@ namespace alluvium::grains
             }
           if (iteration % 2 == 1)
             {
-              const double now = kinetic_energy(problem) + sums.work;
+              const double now = measure.kinetic_energy() + sums.work;
               if (now > objective && change > last_change)
                 t = 1.;
               objective   = now;
@@ -93,7 +92,7 @@ namespace alluvium::grains
           beta                = std::min(cap, (t - 1.) / t_next);
           t                   = t_next;
         }
-      measure_residual(problem, solution);
+      measure_residual(measure, solution);
       return solution;
     }
 
@@ -101,30 +100,28 @@ namespace alluvium::grains
     unsigned int forward_sweeps = 1000;
     unsigned int stall_sweeps   = 100;
 
-    mutable std::vector<DiscVelocity> last; // velocities of the iteration before; kept to save the allocation
+    mutable std::vector<LastImpulse> last; // kept to save the allocation
 
-    void extrapolate(ContactProblem &problem, const double beta) const
+    static void remember(Disc &d)
     {
-      for (std::size_t k = 0; k < last.size(); ++k)
-        {
-          DiscVelocity      &v   = problem.velocity[k];
-          const DiscVelocity now = v;
-          v.x += beta * (now.x - last[k].x);
-          v.y += beta * (now.y - last[k].y);
-          v.s += beta * (now.s - last[k].s);
-          last[k] = now;
-        }
+      d.last_x = d.x;
+      d.last_y = d.y;
+      d.last_s = d.s;
     }
 
-    static double kinetic_energy(const ContactProblem &problem)
+    static void extrapolate(ContactProblem &problem, const double beta)
     {
-      double energy = 0.;
-      for (std::size_t k = 0; k < problem.mass.size(); ++k)
+      for (std::size_t k = 0; k < problem.n_discs; ++k)
         {
-          const DiscVelocity &v = problem.velocity[k];
-          energy += problem.mass[k].translation * (v.x * v.x + v.y * v.y) + problem.mass[k].rotation * v.s * v.s;
+          Disc      &d   = problem.discs[k];
+          const Disc now = d;
+          d.x += beta * (now.x - now.last_x);
+          d.y += beta * (now.y - now.last_y);
+          d.s += beta * (now.s - now.last_s);
+          d.last_x = now.x;
+          d.last_y = now.y;
+          d.last_s = now.s;
         }
-      return 0.5 * energy;
     }
   };
 

@@ -15,14 +15,15 @@ namespace alluvium::grains
     {
       ContactSolution solution;
       apply_impulses(problem);
+      ContactMeasure measure(problem);
       while (solution.sweeps < tolerance.max_sweeps)
         {
-          const SweepSums sums = sweep<true, false>(problem);
+          const SweepSums sums = sweep(problem, measure);
           ++solution.sweeps;
           // The changes of a sweep only hint at the residual after it, so measure before believing.
-          if (relative_change(sums, problem) <= tolerance.allowance(solution.sweeps) * tolerance.residual)
+          if (measure.relative_change(sums) <= tolerance.allowance(solution.sweeps) * tolerance.residual)
             {
-              measure_residual(problem, solution);
+              measure_residual(measure, solution);
               if (solution.meets(tolerance))
                 {
                   solution.converged = true;
@@ -30,7 +31,7 @@ namespace alluvium::grains
                 }
             }
         }
-      measure_residual(problem, solution);
+      measure_residual(measure, solution);
       return solution;
     }
   };

@@ -1,3 +1,5 @@
+#include <alluvium/grains/contact_law.h>
+#include <alluvium/grains/contact_measure.h>
 #include <alluvium/grains/contact_solver.h>
 
 #include <algorithm>
@@ -7,39 +9,59 @@ namespace alluvium::grains
 {
   void apply_impulses(ContactProblem &problem)
   {
-    DiscVelocity *const v = problem.velocity.data();
     for (const Contact &c : problem.contacts)
       {
-        const double px = c.rn * c.nx - c.rt * c.ny, py = c.rn * c.ny + c.rt * c.nx;
-        v[c.i].x -= c.inverse_mass_i * px;
-        v[c.i].y -= c.inverse_mass_i * py;
-        v[c.i].s -= c.inverse_rotation_i * c.rt;
-        v[c.j].x += c.inverse_mass_j * px;
-        v[c.j].y += c.inverse_mass_j * py;
-        v[c.j].s -= c.inverse_rotation_j * c.rt;
+        Disc              &disc_i = problem.discs[c.i], &disc_j = problem.discs[c.j];
+        DiscValues<double> i = values(disc_i), j = values(disc_j);
+        push(values(c), i, j, c.rn, c.rt);
+        disc_i.x = i.x;
+        disc_i.y = i.y;
+        disc_i.s = i.s;
+        disc_j.x = j.x;
+        disc_j.y = j.y;
+        disc_j.s = j.s;
       }
+    if (problem.communicator != nullptr)
+      problem.communicator->update_ghosts(problem.discs);
   }
 
-  void measure_residual(const ContactProblem &problem, ContactSolution &solution)
+  void measure_residual(const ContactMeasure &measure, ContactSolution &solution)
   {
-    double                    sum = 0., largest = 0., size = 0.;
-    const DiscVelocity *const v = problem.velocity.data();
-    for (const Contact &c : problem.contacts)
+    const ContactProblem &problem = measure.problem;
+    ContactMeasure::Sums  sums    = measure.begin();
+    double                largest[2];
+    // A maximum needs no bound; if the sums outgrow theirs, once more with what the maxima allow.
+    for (int attempt = 0; attempt < 2; ++attempt)
       {
-        const double dx = v[c.j].x - v[c.i].x, dy = v[c.j].y - v[c.i].y;
-        const double vn    = dx * c.nx + dy * c.ny + c.bias_n;
-        const double vt    = dy * c.nx - dx * c.ny - (v[c.i].s + v[c.j].s) + c.bias_t;
-        const double rn    = std::max(0., c.rn - vn * c.mass_n);
-        const double limit = c.friction * rn;
-        const double rt    = std::min(limit, std::max(-limit, c.rt - vt * c.mass_t));
-        const double d     = (rn - c.rn) * (rn - c.rn) + (rt - c.rt) * (rt - c.rt);
-        sum += d;
-        size += c.rn * c.rn + c.rt * c.rt;
-        largest = std::max(largest, d);
+        largest[0] = largest[1] = 0.;
+        for (const Contact &c : problem.contacts)
+          if (problem.counts(c))
+            {
+              double rn, rt;
+              CoulombLaw::solve(values(c), values(problem.discs[c.i]), values(problem.discs[c.j]), rn, rt);
+              const double change = (rn - c.rn) * (rn - c.rn) + (rt - c.rt) * (rt - c.rt);
+              const double size   = c.rn * c.rn + c.rt * c.rt;
+              sums.change.add(change);
+              sums.size.add(size);
+              largest[0] = std::max(largest[0], change);
+              largest[1] = std::max(largest[1], size);
+            }
+        if (problem.communicator != nullptr)
+          {
+            double all[2] = {sums.change.value(), sums.size.value()};
+            problem.communicator->sum(all, 2);
+            problem.communicator->max(largest, 2);
+            sums.change.set(all[0]);
+            sums.size.set(all[1]);
+          }
+        if (sums.change.holds() && sums.size.holds())
+          break;
+        const double n = measure.n_contacts();
+        sums           = {ReproducibleSum(n * largest[0]), ReproducibleSum(n * largest[1]), ReproducibleSum(0.)};
       }
-    const double n     = std::max<double>(1., problem.contacts.size());
-    const double scale = std::max(std::sqrt(size / n), problem.impulse_scale);
-    solution.residual  = std::sqrt(sum / n) / scale;
-    solution.violation = std::sqrt(largest) / scale;
+    const double n     = std::max(1., measure.n_contacts());
+    const double scale = std::max(std::sqrt(sums.size.value() / n), problem.impulse_scale);
+    solution.residual  = std::sqrt(sums.change.value() / n) / scale;
+    solution.violation = std::sqrt(largest[0]) / scale;
   }
 } // namespace alluvium::grains

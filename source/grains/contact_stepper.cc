@@ -122,7 +122,7 @@ namespace alluvium::grains
 
     // Scratch of a sub-step.
     ContactProblem            problem;
-    std::vector<DiscVelocity> start, free_velocity;
+    std::vector<Disc>         start, free_velocity;
     std::vector<double>       inverse_mass, inverse_rotation;
     std::vector<Active>       active, active_sorted;
     std::vector<std::uint8_t> disc_pair_active, wall_pair_active;
@@ -219,26 +219,24 @@ namespace alluvium::grains
     free_velocity.resize(n + n_dummies);
     inverse_mass.resize(n + n_dummies);
     inverse_rotation.resize(n + n_dummies);
-    problem.mass.resize(n);
+    problem.n_discs = problem.n_owned_discs = n;
     for (std::size_t k = 0; k < n; ++k)
       {
-        start[k] = {grains.vx[k], grains.vy[k], grains.radius[k] * grains.omega[k], 0.};
+        start[k] = {grains.vx[k], grains.vy[k], grains.radius[k] * grains.omega[k]};
         if (std::isinf(grains.mass[k]))
           {
             free_velocity[k] = start[k];
             inverse_mass[k] = inverse_rotation[k] = 0.;
-            problem.mass[k]                       = {0., 0.};
             continue;
           }
         const double m = grains.mass[k], m_e = m + h * loads.drag[k];
-        inverse_mass[k]       = 1. / m_e;
-        free_velocity[k]      = {(m * start[k].x + h * loads.fx[k]) * inverse_mass[k],
-                                 (m * start[k].y + h * loads.fy[k]) * inverse_mass[k],
-                                 start[k].s,
-                                 0.};
-        const double rotation = disc_inertia(m, 1.);
-        inverse_rotation[k]   = settings.rotation ? 1. / rotation : 0.;
-        problem.mass[k]       = {m_e, settings.rotation ? rotation : 0.};
+        inverse_mass[k]     = 1. / m_e;
+        inverse_rotation[k] = settings.rotation ? 1. / disc_inertia(m, 1.) : 0.;
+        free_velocity[k]    = {(m * start[k].x + h * loads.fx[k]) * inverse_mass[k],
+                               (m * start[k].y + h * loads.fy[k]) * inverse_mass[k],
+                               start[k].s,
+                               inverse_mass[k],
+                               inverse_rotation[k]};
       }
     for (std::size_t k = n; k < n + n_dummies; ++k)
       {
@@ -277,12 +275,12 @@ namespace alluvium::grains
 
     for (std::size_t k = 0; k < candidates.discs.size(); ++k)
       {
-        ContactPair        &p  = candidates.discs[k];
-        const DiscVelocity &vi = free_velocity[p.i], &vj = free_velocity[p.j];
-        const double        dx = grains.x[p.j] - grains.x[p.i], dy = grains.y[p.j] - grains.y[p.i];
-        const double        distance = std::sqrt(dx * dx + dy * dy),
-                     gap             = distance - (grains.radius[p.i] + grains.radius[p.j]);
-        const double approach        = (vj.x - vi.x) * dx + (vj.y - vi.y) * dy;
+        ContactPair &p  = candidates.discs[k];
+        const Disc  &vi = free_velocity[p.i], &vj = free_velocity[p.j];
+        const double dx = grains.x[p.j] - grains.x[p.i], dy = grains.y[p.j] - grains.y[p.i];
+        const double distance = std::sqrt(dx * dx + dy * dy),
+                     gap      = distance - (grains.radius[p.i] + grains.radius[p.j]);
+        const double approach = (vj.x - vi.x) * dx + (vj.y - vi.y) * dy;
         if (!(keep && disc_pair_active[k]) && gap >= margin && (gap - margin) * distance + h * approach >= 0.)
           {
             p.rn = p.rt = 0.;
@@ -300,10 +298,10 @@ namespace alluvium::grains
       }
     for (std::size_t k = 0; k < candidates.walls.size(); ++k)
       {
-        ContactPair        &p = candidates.walls[k];
-        const DiscVelocity &v = free_velocity[p.i];
-        const auto         &w = walls.segments()[p.j].velocity;
-        ContactPoint        point;
+        ContactPair &p = candidates.walls[k];
+        const Disc  &v = free_velocity[p.i];
+        const auto  &w = walls.segments()[p.j].velocity;
+        ContactPoint point;
         if (inverse_mass[p.i] == 0. || !walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point))
           {
             wall_pair_active[k] = 0;
@@ -332,6 +330,11 @@ namespace alluvium::grains
     active_sorted.resize(active.size());
     for (const Active &a : active)
       active_sorted[begin[a.colour]++] = a;
+    // begin[c] has become the end of colour c
+    problem.colour_begin.assign(1, 0);
+    problem.colour_begin.insert(problem.colour_begin.end(), begin.begin(), begin.begin() + Colouring::n_colours);
+    while (problem.n_colours() > 0 && problem.colour_begin.end()[-2] == active.size())
+      problem.colour_begin.pop_back();
 
     const std::size_t n_discs = start.size();
     problem.contacts.resize(active.size());
@@ -354,14 +357,7 @@ namespace alluvium::grains
             c.bias_n += w[0] * c.nx + w[1] * c.ny;
             c.bias_t = w[1] * c.nx - w[0] * c.ny;
           }
-        c.inverse_mass_i     = inverse_mass[c.i];
-        c.inverse_mass_j     = inverse_mass[c.j];
-        c.inverse_rotation_i = inverse_rotation[c.i];
-        c.inverse_rotation_j = inverse_rotation[c.j];
-        const double normal  = c.inverse_mass_i + c.inverse_mass_j;
-        c.mass_n             = 1. / normal;
-        c.mass_t             = 1. / (normal + c.inverse_rotation_i + c.inverse_rotation_j);
-        c.friction           = a.wall ? settings.wall_friction : settings.friction;
+        c.friction = a.wall ? settings.wall_friction : settings.friction;
       }
   }
 
@@ -371,11 +367,11 @@ namespace alluvium::grains
     for (std::size_t k = 0; k < candidates.discs.size(); ++k)
       if (!disc_pair_active[k])
         {
-          const ContactPair  &p  = candidates.discs[k];
-          const DiscVelocity &vi = problem.velocity[p.i], &vj = problem.velocity[p.j];
-          const double        dx = grains.x[p.j] - grains.x[p.i], dy = grains.y[p.j] - grains.y[p.i];
-          const double        distance = std::sqrt(dx * dx + dy * dy);
-          const double        gap      = distance - (grains.radius[p.i] + grains.radius[p.j]);
+          const ContactPair &p  = candidates.discs[k];
+          const Disc        &vi = problem.discs[p.i], &vj = problem.discs[p.j];
+          const double       dx = grains.x[p.j] - grains.x[p.i], dy = grains.y[p.j] - grains.y[p.i];
+          const double       distance = std::sqrt(dx * dx + dy * dy);
+          const double       gap      = distance - (grains.radius[p.i] + grains.radius[p.j]);
           if (gap * distance + h * ((vj.x - vi.x) * dx + (vj.y - vi.y) * dy) < 0. &&
               inverse_mass[p.i] + inverse_mass[p.j] > 0.)
             {
@@ -386,10 +382,10 @@ namespace alluvium::grains
     for (std::size_t k = 0; k < candidates.walls.size(); ++k)
       if (!wall_pair_active[k])
         {
-          const ContactPair  &p = candidates.walls[k];
-          const DiscVelocity &v = problem.velocity[p.i];
-          const auto         &w = walls.segments()[p.j].velocity;
-          ContactPoint        point;
+          const ContactPair &p = candidates.walls[k];
+          const Disc        &v = problem.discs[p.i];
+          const auto        &w = walls.segments()[p.j].velocity;
+          ContactPoint       point;
           if (inverse_mass[p.i] > 0. && walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point) &&
               point.gap + h * ((w[0] - v.x) * point.nx + (w[1] - v.y) * point.ny) < 0.)
             {
@@ -405,7 +401,7 @@ namespace alluvium::grains
   {
     const std::size_t n = grains.n();
     set_free_velocities(grains, loads, h);
-    const auto top_two = [&](const std::vector<DiscVelocity> &v) {
+    const auto top_two = [&](const std::vector<Disc> &v) {
       double first = 0., second = 0.;
       for (std::size_t k = 0; k < n; ++k)
         {
@@ -435,7 +431,7 @@ namespace alluvium::grains
     const double delta         = std::min(settings.dead_zone * base_h * velocity_unit, 1e-3 * d_min);
     const double push_out      = settings.push_out * velocity_unit;
     double       mean_square   = 0.;
-    for (const DiscVelocity &v : start)
+    for (const Disc &v : start)
       mean_square += (v.x * v.x + v.y * v.y) / n;
     // Pairs this near take part from the start: the faster the grains, the more likely a solution closes a gap. Fewer
     // rounds then.
@@ -489,8 +485,8 @@ namespace alluvium::grains
                                ? settings.patience
                                : settings.max_sweeps;
         build_contacts();
-        problem.velocity = free_velocity;
-        solution         = solver().solve(problem, tolerance);
+        problem.discs = free_velocity;
+        solution      = solver().solve(problem, tolerance);
         report.n_sweeps += solution.sweeps;
         report.n_updates += static_cast<unsigned long long>(solution.sweeps) * problem.contacts.size();
         for (std::size_t k = 0; k < problem.contacts.size(); ++k)
@@ -500,7 +496,7 @@ namespace alluvium::grains
           }
         if (solution.converged && solution.residual > settings.residual_tolerance)
           ++report.n_loose;
-        end_speed = top_two(problem.velocity);
+        end_speed = top_two(problem.discs);
         if (!std::isfinite(end_speed[0]))
           throw std::runtime_error("A grain velocity is not a finite number after the contact solve.");
         too_far = h * end_speed[0] > 2. * settings.max_move * d_min;

@@ -1,26 +1,29 @@
 #pragma once
 
+#include <alluvium/grains/contact_communicator.h>
+
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace alluvium::grains
 {
-  /** Velocity of a disc, packed for the sweeps: s = radius * omega [m/s], so that rotation needs no lever arms. */
-  struct DiscVelocity
+  /**
+   * A disc during the sweeps, one cache line. s = radius * omega [m/s], so that rotation needs no lever arms; the
+   * velocities of the iteration before are the accelerated solvers' own.
+   */
+  struct alignas(64) Disc
   {
-    double x = 0., y = 0., s = 0., padding = 0.;
-  };
-
-  /** What a disc's kinetic energy weighs its velocities with [kg/m]: the effective mass, and I / r^2 for s. */
-  struct DiscMass
-  {
-    double translation, rotation;
+    double x = 0., y = 0., s = 0.; // velocity [m/s]
+    double inverse_mass     = 0.;  // effective, of translation [m/kg]; 0: nothing moves it
+    double inverse_rotation = 0.;  // r^2 / I [m/kg]; 0: it does not spin
+    double last_x = 0., last_y = 0., last_s = 0.;
   };
 
   /**
-   * One contact between discs i and j (or a wall in place of j) during one sub-step. The normal points from i to j, the
-   * tangent is
-   * (-ny, nx), the impulse (rn, rt) acts on j and its opposite on i. With the relative velocities
+   * One contact between discs i and j (or a wall in place of j) during one sub-step, one cache line. The normal points
+   * from i to j, the tangent is (-ny, nx), the impulse (rn, rt) acts on j and its opposite on i. With the relative
+   * velocities
    *
    *   v_n = (v_j - v_i).n                    v_t = (v_j - v_i).t - s_i - s_j
    *
@@ -29,27 +32,41 @@ namespace alluvium::grains
    */
   struct alignas(64) Contact
   {
-    std::uint32_t i, j;
     double        nx, ny;
-    double        bias_n, bias_t;                         // [m/s]
-    double        rn, rt;                                 // [N s/m]
-    double        last_rn, last_rt;                       // of the sweep before; the accelerated solver's own
-    double        mass_n, mass_t;                         // 1 / (diagonal of the local block) [kg/m]
-    double        inverse_mass_i, inverse_mass_j;         // effective, of translation [m/kg]
-    double        inverse_rotation_i, inverse_rotation_j; // r^2 / I [m/kg]
+    double        bias_n, bias_t; // [m/s]
+    double        rn, rt;         // [N s/m]
     double        friction;
+    std::uint32_t i, j;
   };
 
   /**
    * All contacts of one sub-step. Walls are bodies that nothing moves: their velocity sits in the biases, and a few
-   * dummy entries behind the discs stand for them in `velocity`.
+   * dummies behind the discs stand for them.
+   *
+   * Over several ranks a problem holds the discs that the rank owns, then ghosts, and every contact of an owned disc;
+   * one between an owned disc and a ghost is on both ranks, which compute the same bits. It counts in sums where its
+   * disc i is owned, so i and j must be the same discs on both.
    */
   struct ContactProblem
   {
-    std::vector<DiscVelocity> velocity; // in: free velocities; out: with the contact impulses. n_discs + dummies
-    std::vector<DiscMass>     mass;     // n_discs
-    std::vector<Contact>      contacts; // in: warm impulses; out: the solution. Neighbours in the list share no disc
-    double                    impulse_scale = 1.; // smallest impulse that matters [N s/m]: mean mass * g * dt, say
+    static constexpr unsigned int max_colours = 64;
+
+    std::vector<Disc>          discs; // in: free velocities; out: with the contact impulses. Owned, ghosts, dummies
+    std::size_t                n_discs       = 0; // owned and ghosts
+    std::size_t                n_owned_discs = 0;
+    std::vector<Contact>       contacts;          // in: warm impulses; out: the solution
+    std::vector<std::uint32_t> colour_begin{};    // contacts of colour c are [colour_begin[c], colour_begin[c + 1]) and
+                                                  // share no disc, see independent()
+    double               impulse_scale = 1.;      // smallest impulse that matters [N s/m]: mean mass * g * dt, say
+    ContactCommunicator *communicator  = nullptr; // none on one rank
+
+    std::size_t n_colours() const { return colour_begin.empty() ? 0 : colour_begin.size() - 1; }
+
+    /** Whether contacts of @p colour share no disc. The last possible colour takes what found no other. */
+    static bool independent(const unsigned int colour) { return colour + 1 < max_colours; }
+
+    /** Whether sums over all ranks take @p contact from this one. */
+    bool counts(const Contact &contact) const { return contact.i < n_owned_discs; }
   };
 
   /** Add the velocities that the impulses in @p problem cause to its velocities. */

@@ -42,7 +42,8 @@ namespace alluvium::grains
 
   /**
    * Interface of the plug-ins that solve a ContactProblem: from free velocities and warm impulses to final ones. They
-   * must be deterministic and may not communicate: every rank solves the same problem and must find the same bits.
+   * must be deterministic. Over several ranks they are collective, speak through the problem's communicator only, and
+   * must find the same bits on any number of them, or refuse.
    */
   class ContactSolver
   {
@@ -52,6 +53,11 @@ namespace alluvium::grains
     virtual ContactSolution solve(ContactProblem &problem, const ContactTolerance &tolerance) const = 0;
   };
 
-  /** The natural-map residual of @p problem as it stands: fills `residual` and `violation` of @p solution. */
-  void measure_residual(const ContactProblem &problem, ContactSolution &solution);
+  class ContactMeasure;
+
+  /**
+   * The natural-map residual of the problem of @p measure as it stands: fills `residual` and `violation` of
+   * @p solution. Collective.
+   */
+  void measure_residual(const ContactMeasure &measure, ContactSolution &solution);
 } // namespace alluvium::grains
