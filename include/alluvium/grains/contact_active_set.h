@@ -1,0 +1,84 @@
+#pragma once
+
+#include <alluvium/grains/contact_bodies.h>
+#include <alluvium/grains/contact_colouring.h>
+#include <alluvium/grains/contact_neighbours.h>
+#include <alluvium/grains/contact_settings.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace alluvium::grains
+{
+  /** The lengths and speeds that decide which pairs take part in a sub-step, and how overlaps open. */
+  struct ContactMargins
+  {
+    double h        = 0.; // length of the sub-step [s]
+    double base_h   = 0.; // and of an unhalved one
+    double delta    = 0.; // gaps and overlaps below this count as closed [m]
+    double nearness = 0.; // pairs this near take part, whether they approach or not [m]
+    double push_out = 0.; // overlaps open at most this fast [m/s]
+  };
+
+  /**
+   * The pairs that take part in a sub-step: those that touch, are near, or would pass each other without contact. Turns
+   * them into the contacts of a ContactProblem and takes their impulses back.
+   */
+  class ContactActiveSet
+  {
+  public:
+    /** Choose them. With @p keep, those that took part before stay, whatever they do. */
+    void select(const GrainArrays     &grains,
+                const ContactBodies   &bodies,
+                const WallGeometry    &walls,
+                const ContactSettings &settings,
+                const ContactMargins  &margins,
+                bool                   keep,
+                ContactCandidates     &candidates);
+
+    /** After a new search: the pairs with an impulse take part, and no others. */
+    void restart_from_impulses(const ContactCandidates &candidates);
+
+    /**
+     * Let those take part in the next select() that overlap at the end of the sub-step with velocities @p velocity;
+     * whether there are any.
+     */
+    bool add_violated(const GrainArrays       &grains,
+                      const ContactBodies     &bodies,
+                      const WallGeometry      &walls,
+                      const std::vector<Disc> &velocity,
+                      double                   h,
+                      const ContactCandidates &candidates);
+
+    /** Write the contacts of @p problem, warm impulses included. */
+    void build(const ContactBodies   &bodies,
+               const WallGeometry    &walls,
+               const ContactSettings &settings,
+               ContactProblem        &problem);
+
+    /** Hand the impulses of the solved @p problem to the pairs. */
+    void take_impulses(const ContactProblem &problem);
+
+    /** Whether any pair starts with an impulse. */
+    bool is_warm() const;
+
+    /** Wall segment of contact @p k of the problem, or -1 if it is between grains. */
+    std::int64_t wall_of(const std::size_t k) const { return sorted[k].wall ? std::int64_t(sorted[k].pair->j) : -1; }
+
+    /** Mean and largest overlap of the contacts, with the grains where they are now [m]. */
+    void measure_overlaps(const GrainArrays &grains, const WallGeometry &walls, double &mean, double &largest) const;
+
+  private:
+    struct Active
+    {
+      ContactPair *pair;
+      ContactPoint point;
+      double       bias;
+      unsigned int colour;
+      bool         wall;
+    };
+    std::vector<Active>       active, sorted; // as selected, and by colour as in the problem
+    std::vector<std::uint8_t> disc_takes_part, wall_takes_part;
+    ContactColouring          colouring;
+  };
+} // namespace alluvium::grains

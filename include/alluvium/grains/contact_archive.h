@@ -1,0 +1,22 @@
+#pragma once
+
+#include <alluvium/grains/grain_arrays.h>
+
+#include <vector>
+
+namespace alluvium::grains
+{
+  /** The contact impulses of the last sub-step: what makes the next one start warm. Part of a checkpoint. */
+  struct ContactArchive
+  {
+    /** Grain @p a and grain @p b, or wall segment ~b (bits flipped) where `wall`. */
+    struct Entry
+    {
+      GrainId a, b;
+      bool    wall;
+      double  rn, rt; // [N s/m]
+    };
+    double             dt = 0.; // of that sub-step [s]
+    std::vector<Entry> entries;
+  };
+} // namespace alluvium::grains

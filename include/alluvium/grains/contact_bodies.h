@@ -1,0 +1,29 @@
+#pragma once
+
+#include <alluvium/grains/contact_problem.h>
+#include <alluvium/grains/grain_arrays.h>
+
+#include <array>
+#include <vector>
+
+namespace alluvium::grains
+{
+  /** The grains as the contact problem of one sub-step sees them: velocities without contacts, and inverse masses. */
+  class ContactBodies
+  {
+  public:
+    // Stand for walls; several, so that wall contacts in a row stay independent.
+    static constexpr std::size_t n_dummies = 16;
+
+    std::vector<Disc> start; // velocities at the start of the sub-step; n_discs
+    std::vector<Disc> free;  // velocities at its end without contacts, and inverse masses; n_discs + n_dummies
+
+    /** Set them for a sub-step of length @p h [s]. */
+    void set(const GrainArrays &grains, const GrainLoads &loads, double h, bool rotation);
+
+    std::size_t n_discs() const { return start.size(); }
+  };
+
+  /** The largest and the second largest speed of the first @p n of @p velocities [m/s]. */
+  std::array<double, 2> largest_speeds(const std::vector<Disc> &velocities, std::size_t n);
+} // namespace alluvium::grains

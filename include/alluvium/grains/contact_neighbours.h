@@ -1,0 +1,50 @@
+#pragma once
+
+#include <alluvium/grains/contact_archive.h>
+#include <alluvium/grains/contact_search.h>
+
+#include <vector>
+
+namespace alluvium::grains
+{
+  /**
+   * The pairs that the last contact search found, with the impulses they last exchanged. Knows how far grains may still
+   * move before it misses a pair, and carries the impulses of pairs over to the next search by the ids of their grains.
+   */
+  class ContactNeighbours
+  {
+  public:
+    ContactCandidates pairs;
+
+    /** Search anew all pairs with gaps below @p skin [m]; known pairs keep their impulses. */
+    void search(const GrainArrays &grains, const WallGeometry &walls, double skin);
+
+    /** Let the next use search anew, whatever has moved. */
+    void forget();
+
+    /** Whether there was a search, and for these grains in this order. */
+    bool known(const GrainArrays &grains) const { return searched && searched_id == grains.id; }
+
+    /** How far two grains, or a grain and a wall, may still approach each other before a pair is missed [m]. */
+    double slack(const GrainArrays &grains) const;
+
+    /** Walls have moved by up to @p distance [m]. */
+    void walls_moved(const double distance) { skin -= distance; }
+
+    /** Make the impulses those of a sub-step of length @p h [s]. */
+    void rescale(double h);
+
+    ContactArchive archive() const;
+    void           set_archive(ContactArchive archive);
+
+  private:
+    std::vector<GrainId> searched_id; // the grains of the last search, and where they were
+    std::vector<double>  searched_x, searched_y;
+    double               skin     = 0.;
+    bool                 searched = false;
+    ContactArchive       pending; // impulses that wait for a search
+    double               warm_dt = 0.;
+
+    void carry(const GrainArrays &grains, std::vector<ContactPair> &found, bool wall) const;
+  };
+} // namespace alluvium::grains

@@ -1,0 +1,33 @@
+#pragma once
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace alluvium::grains
+{
+  /** The numbers of the contact laws and of their time stepping; the parameter file's defaults. */
+  struct ContactSettings
+  {
+    double       friction            = 0.4;  // between grains
+    double       wall_friction       = 0.4;  // between grains and walls
+    double       restitution         = 0.;   // Newton's
+    double       threshold_velocity  = 0.01; // [m/s] slower impacts do not bounce
+    bool         rotation            = true;
+    double       residual_tolerance  = 1e-5;
+    double       violation_tolerance = 1e-3;
+    double       loose               = 10.; // both times this ...
+    unsigned int patience            = 100; // ... after so many sweeps
+    unsigned int max_sweeps          = 3000;
+    unsigned int max_halvings        = 4;
+    double       max_move            = 0.25; // of the smallest diameter, in one sub-step
+    double       dead_zone           = 5e-4; // times dt sqrt(g d)
+    double       correction          = 0.2;  // part of an overlap that one (unhalved) sub-step opens
+    double       push_out            = 0.1;  // times sqrt(g d): and how fast at most
+    double       skin                = 0.15; // of the largest diameter
+
+    /** Declare them in the current section of @p prm. */
+    void add_parameters(dealii::ParameterHandler &prm);
+  };
+} // namespace alluvium::grains

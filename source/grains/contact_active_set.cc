@@ -1,0 +1,226 @@
+#include <alluvium/grains/contact_active_set.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace alluvium::grains
+{
+  void ContactActiveSet::select(const GrainArrays     &grains,
+                                const ContactBodies   &bodies,
+                                const WallGeometry    &walls,
+                                const ContactSettings &settings,
+                                const ContactMargins  &margins,
+                                const bool             keep,
+                                ContactCandidates     &candidates)
+  {
+    const double h = margins.h, delta = margins.delta, nearness = margins.nearness;
+    active.clear();
+    if (!keep)
+      {
+        disc_takes_part.assign(candidates.discs.size(), 0);
+        wall_takes_part.assign(candidates.walls.size(), 0);
+      }
+    colouring.reset(bodies.n_discs());
+
+    // v_n + bias >= 0: gaps within delta count as closed, so that a bed at rest does not chatter; overlaps open at
+    // bounded speed.
+    const auto bias = [&](const double gap, const double vn_start, const double vn_free) {
+      double b = 0.;
+      if (gap > delta)
+        b = (gap - delta) / h;
+      else if (gap < -delta)
+        b = std::max(settings.correction * (gap + delta) / margins.base_h, -margins.push_out);
+      if (settings.restitution > 0. && vn_start < -settings.threshold_velocity && gap + h * vn_free < delta)
+        b = gap > 0. ? settings.restitution * vn_start : std::min(b, settings.restitution * vn_start);
+      return b;
+    };
+
+    const auto &start = bodies.start, &free = bodies.free;
+    for (std::size_t k = 0; k < candidates.discs.size(); ++k)
+      {
+        ContactPair &p  = candidates.discs[k];
+        const Disc  &vi = free[p.i], &vj = free[p.j];
+        const double dx = grains.x[p.j] - grains.x[p.i], dy = grains.y[p.j] - grains.y[p.i];
+        const double distance = std::sqrt(dx * dx + dy * dy),
+                     gap      = distance - (grains.radius[p.i] + grains.radius[p.j]);
+        const double approach = (vj.x - vi.x) * dx + (vj.y - vi.y) * dy;
+        if (!(keep && disc_takes_part[k]) && gap >= nearness && (gap - nearness) * distance + h * approach >= 0.)
+          {
+            p.rn = p.rt = 0.;
+            continue;
+          }
+        if (bodies.free[p.i].inverse_mass + bodies.free[p.j].inverse_mass == 0.)
+          continue;
+        disc_takes_part[k] = 1;
+        const double over  = distance > 0. ? 1. / distance : 0.;
+        const double nx = distance > 0. ? dx * over : 1., ny = dy * over;
+        double       vn_start = 0.;
+        if (settings.restitution > 0.)
+          vn_start = (start[p.j].x - start[p.i].x) * nx + (start[p.j].y - start[p.i].y) * ny;
+        active.push_back({&p, {nx, ny, gap}, bias(gap, vn_start, approach * over), colouring.add(p.i, p.j), false});
+      }
+    for (std::size_t k = 0; k < candidates.walls.size(); ++k)
+      {
+        ContactPair &p = candidates.walls[k];
+        const Disc  &v = free[p.i];
+        const auto  &w = walls.segments()[p.j].velocity;
+        ContactPoint point;
+        if (bodies.free[p.i].inverse_mass == 0. ||
+            !walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point))
+          {
+            wall_takes_part[k] = 0;
+            p.rn = p.rt = 0.;
+            continue;
+          }
+        const double vn_free = (w[0] - v.x) * point.nx + (w[1] - v.y) * point.ny;
+        if (!(keep && wall_takes_part[k]) && point.gap >= nearness && point.gap - nearness + h * vn_free >= 0.)
+          {
+            p.rn = p.rt = 0.;
+            continue;
+          }
+        wall_takes_part[k]    = 1;
+        const double vn_start = (w[0] - start[p.i].x) * point.nx + (w[1] - start[p.i].y) * point.ny;
+        active.push_back({&p, point, bias(point.gap, vn_start, vn_free), colouring.add(p.i), true});
+      }
+  }
+
+  void ContactActiveSet::restart_from_impulses(const ContactCandidates &candidates)
+  {
+    disc_takes_part.assign(candidates.discs.size(), 0);
+    wall_takes_part.assign(candidates.walls.size(), 0);
+    for (std::size_t k = 0; k < candidates.discs.size(); ++k)
+      disc_takes_part[k] = candidates.discs[k].rn > 0.;
+    for (std::size_t k = 0; k < candidates.walls.size(); ++k)
+      wall_takes_part[k] = candidates.walls[k].rn > 0.;
+  }
+
+  bool ContactActiveSet::add_violated(const GrainArrays       &grains,
+                                      const ContactBodies     &bodies,
+                                      const WallGeometry      &walls,
+                                      const std::vector<Disc> &velocity,
+                                      const double             h,
+                                      const ContactCandidates &candidates)
+  {
+    bool found = false;
+    for (std::size_t k = 0; k < candidates.discs.size(); ++k)
+      if (!disc_takes_part[k])
+        {
+          const ContactPair &p  = candidates.discs[k];
+          const Disc        &vi = velocity[p.i], &vj = velocity[p.j];
+          const double       dx = grains.x[p.j] - grains.x[p.i], dy = grains.y[p.j] - grains.y[p.i];
+          const double       distance = std::sqrt(dx * dx + dy * dy);
+          const double       gap      = distance - (grains.radius[p.i] + grains.radius[p.j]);
+          if (gap * distance + h * ((vj.x - vi.x) * dx + (vj.y - vi.y) * dy) < 0. &&
+              bodies.free[p.i].inverse_mass + bodies.free[p.j].inverse_mass > 0.)
+            {
+              disc_takes_part[k] = 1;
+              found              = true;
+            }
+        }
+    for (std::size_t k = 0; k < candidates.walls.size(); ++k)
+      if (!wall_takes_part[k])
+        {
+          const ContactPair &p = candidates.walls[k];
+          const Disc        &v = velocity[p.i];
+          const auto        &w = walls.segments()[p.j].velocity;
+          ContactPoint       point;
+          if (bodies.free[p.i].inverse_mass > 0. &&
+              walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point) &&
+              point.gap + h * ((w[0] - v.x) * point.nx + (w[1] - v.y) * point.ny) < 0.)
+            {
+              wall_takes_part[k] = 1;
+              found              = true;
+            }
+        }
+    return found;
+  }
+
+  void ContactActiveSet::build(const ContactBodies   &bodies,
+                               const WallGeometry    &walls,
+                               const ContactSettings &settings,
+                               ContactProblem        &problem)
+  {
+    std::array<std::uint32_t, ContactColouring::n_colours + 1> begin{};
+    for (const Active &a : active)
+      ++begin[a.colour + 1];
+    for (unsigned int c = 0; c < ContactColouring::n_colours; ++c)
+      begin[c + 1] += begin[c];
+    sorted.resize(active.size());
+    for (const Active &a : active)
+      sorted[begin[a.colour]++] = a;
+
+    // begin[c] has become the end of colour c
+    problem.colour_begin.assign(1, 0);
+    problem.colour_begin.insert(problem.colour_begin.end(), begin.begin(), begin.end() - 1);
+    while (problem.n_colours() > 0 && problem.colour_begin.end()[-2] == active.size())
+      problem.colour_begin.pop_back();
+
+    problem.contacts.resize(active.size());
+    unsigned int dummy = 0;
+    for (std::size_t k = 0; k < active.size(); ++k)
+      {
+        const Active &a = sorted[k];
+        Contact      &c = problem.contacts[k];
+        c.i             = a.pair->i;
+        c.j             = a.wall ? bodies.n_discs() + (dummy++ % ContactBodies::n_dummies) : a.pair->j;
+        c.nx            = a.point.nx;
+        c.ny            = a.point.ny;
+        c.bias_n        = a.bias;
+        c.bias_t        = 0.;
+        c.rn            = a.pair->rn;
+        c.rt            = a.pair->rt;
+        if (a.wall)
+          {
+            const auto &w = walls.segments()[a.pair->j].velocity;
+            c.bias_n += w[0] * c.nx + w[1] * c.ny;
+            c.bias_t = w[1] * c.nx - w[0] * c.ny;
+          }
+        c.friction = a.wall ? settings.wall_friction : settings.friction;
+      }
+  }
+
+  void ContactActiveSet::take_impulses(const ContactProblem &problem)
+  {
+    for (std::size_t k = 0; k < problem.contacts.size(); ++k)
+      {
+        sorted[k].pair->rn = problem.contacts[k].rn;
+        sorted[k].pair->rt = problem.contacts[k].rt;
+      }
+  }
+
+  bool ContactActiveSet::is_warm() const
+  {
+    return std::any_of(active.begin(), active.end(), [](const Active &a) { return a.pair->rn > 0.; });
+  }
+
+  void ContactActiveSet::measure_overlaps(const GrainArrays  &grains,
+                                          const WallGeometry &walls,
+                                          double             &mean,
+                                          double             &largest) const
+  {
+    std::size_t n = 0;
+    mean = largest = 0.;
+    for (const Active &a : sorted)
+      {
+        const ContactPair &p   = *a.pair;
+        double             gap = 0.;
+        ContactPoint       point;
+        if (!a.wall)
+          {
+            const double dx = grains.x[p.j] - grains.x[p.i], dy = grains.y[p.j] - grains.y[p.i];
+            gap = std::sqrt(dx * dx + dy * dy) - (grains.radius[p.i] + grains.radius[p.j]);
+          }
+        else if (walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point))
+          gap = point.gap;
+        if (gap < 0.)
+          {
+            ++n;
+            mean -= gap;
+            largest = std::max(largest, -gap);
+          }
+      }
+    if (n > 0)
+      mean /= n;
+  }
+} // namespace alluvium::grains

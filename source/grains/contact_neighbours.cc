@@ -1,0 +1,127 @@
+#include <alluvium/grains/contact_neighbours.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace alluvium::grains
+{
+  namespace
+  {
+    std::uint64_t key(const std::uint32_t a, const std::uint32_t b)
+    {
+      return (std::uint64_t(a) << 32) | b;
+    }
+  } // namespace
+
+  void ContactNeighbours::search(const GrainArrays &grains, const WallGeometry &walls, const double skin)
+  {
+    forget();
+    pairs       = find_candidates(grains, walls, skin);
+    searched_id = grains.id;
+    searched_x  = grains.x;
+    searched_y  = grains.y;
+    this->skin  = skin;
+    searched    = true;
+    carry(grains, pairs.discs, false);
+    carry(grains, pairs.walls, true);
+    pending.entries.clear();
+  }
+
+  void ContactNeighbours::carry(const GrainArrays &grains, std::vector<ContactPair> &found, const bool wall) const
+  {
+    std::vector<std::pair<std::uint64_t, const ContactArchive::Entry *>> list;
+    for (const auto &e : pending.entries)
+      if (e.wall == wall)
+        list.emplace_back(key(e.a, wall ? ~e.b : e.b), &e);
+    const auto lower = [](const auto &p, const auto &q) { return p.first < q.first; };
+    if (!std::is_sorted(list.begin(), list.end(), lower))
+      std::sort(list.begin(), list.end(), lower);
+
+    // Where the pairs come sorted by ids, this is one pass through both lists.
+    auto it = list.begin();
+    for (ContactPair &p : found)
+      {
+        const std::uint64_t k = key(grains.id[p.i], wall ? p.j : grains.id[p.j]);
+        if (it != list.begin() && std::prev(it)->first >= k)
+          it = std::lower_bound(list.begin(), it, k, [](const auto &e, const std::uint64_t v) { return e.first < v; });
+        while (it != list.end() && it->first < k)
+          ++it;
+        if (it != list.end() && it->first == k)
+          {
+            p.rn = it->second->rn;
+            p.rt = it->second->rt;
+          }
+      }
+  }
+
+  void ContactNeighbours::forget()
+  {
+    pending  = archive();
+    searched = false;
+    pairs    = {};
+  }
+
+  double ContactNeighbours::slack(const GrainArrays &grains) const
+  {
+    double first = 0., second = 0.;
+    for (std::size_t k = 0; k < grains.n(); ++k)
+      {
+        const double dx = grains.x[k] - searched_x[k], dy = grains.y[k] - searched_y[k], d = dx * dx + dy * dy;
+        if (d > first)
+          {
+            second = first;
+            first  = d;
+          }
+        else if (d > second)
+          second = d;
+      }
+    return skin - (std::sqrt(first) + std::sqrt(second));
+  }
+
+  void ContactNeighbours::rescale(const double h)
+  {
+    if (warm_dt > 0. && warm_dt != h)
+      {
+        const double scale = h / warm_dt;
+        for (auto *list : {&pairs.discs, &pairs.walls})
+          for (ContactPair &p : *list)
+            {
+              p.rn *= scale;
+              p.rt *= scale;
+            }
+        for (auto &e : pending.entries)
+          {
+            e.rn *= scale;
+            e.rt *= scale;
+          }
+      }
+    warm_dt = h;
+  }
+
+  ContactArchive ContactNeighbours::archive() const
+  {
+    if (!searched)
+      {
+        ContactArchive result = pending;
+        result.dt             = warm_dt;
+        return result;
+      }
+    ContactArchive result;
+    result.dt = warm_dt;
+    for (const ContactPair &p : pairs.discs)
+      if (p.rn != 0. || p.rt != 0.)
+        result.entries.push_back({searched_id[p.i], searched_id[p.j], false, p.rn, p.rt});
+    for (const ContactPair &p : pairs.walls)
+      if (p.rn != 0. || p.rt != 0.)
+        result.entries.push_back({searched_id[p.i], ~p.j, true, p.rn, p.rt});
+    return result;
+  }
+
+  void ContactNeighbours::set_archive(ContactArchive archive)
+  {
+    pairs    = {};
+    pending  = std::move(archive);
+    warm_dt  = pending.dt;
+    searched = false;
+  }
+} // namespace alluvium::grains

@@ -1,0 +1,79 @@
+#include <alluvium/grains/contact_settings.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/patterns.h>
+
+namespace alluvium::grains
+{
+  void ContactSettings::add_parameters(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.add_parameter("Friction coefficient", friction, "Coulomb friction between grains [-].", Double(0.));
+    prm.add_parameter(
+      "Wall friction coefficient", wall_friction, "Coulomb friction between grains and walls [-].", Double(0.));
+    prm.add_parameter("Restitution",
+                      restitution,
+                      "Newton's coefficient of restitution [-]: 0, an impact ends the approach; 1, it turns it around.",
+                      Double(0., 1.));
+    prm.add_parameter("Restitution threshold velocity",
+                      threshold_velocity,
+                      "Impacts slower than this do not bounce, so that grains come to rest [m/s].",
+                      Double(0.));
+    prm.add_parameter("Grains rotate", rotation, "If false, grains never spin, as if they were blocks.");
+    prm.add_parameter(
+      "Residual tolerance",
+      residual_tolerance,
+      "How far a contact impulse may be from its law, root mean square over all contacts, over the root mean "
+      "square impulse or, if larger, that of the weight of one grain in a sub-step [-]. With much more than 1e-5 the "
+      "floor of a bed no longer carries all of its weight.",
+      Double(0.));
+    prm.add_parameter("Largest violation", violation_tolerance, "The same for the worst contact [-].", Double(0.));
+    prm.add_parameter(
+      "Patience",
+      patience,
+      "After this many sweeps the grains are taken to be on the move, and the looser tolerance will do.",
+      Integer(1));
+    prm.add_parameter(
+      "Loose factor",
+      loose,
+      "How much larger the residual tolerance and the largest violation are after that [-]. 1: never looser.",
+      Double(1.));
+    prm.add_parameter("Largest number of sweeps",
+                      max_sweeps,
+                      "A sub-step that is not solved after this many sweeps is taken as two halves.",
+                      Integer(1));
+    prm.add_parameter(
+      "Largest number of halvings",
+      max_halvings,
+      "How often a sub-step may be halved before its best solution is taken and reported as unconverged.",
+      Integer(0, 20));
+    prm.add_parameter(
+      "Largest move per sub-step",
+      max_move,
+      "The fastest grain sets the sub-step: it moves at most by this fraction of the smallest diameter [-].",
+      Double(1e-6, 1.));
+    prm.add_parameter(
+      "Dead zone",
+      dead_zone,
+      "Gaps and overlaps below this times dt sqrt(g d) count as closed [-], so that a bed at rest does not "
+      "chatter: 1e-5 d at dt = 1e-4 s, 1e-4 d at 1e-3 s for sand of 0.2 mm. Never more than 1e-3 d.",
+      Double(0.));
+    prm.add_parameter(
+      "Overlap correction",
+      correction,
+      "The part of an overlap that is opened in one sub-step [-]. Small values are gentle; an overlap is an error of "
+      "the solver or of the initial state, and opening it costs spurious velocity.",
+      Double(0., 1.));
+    prm.add_parameter(
+      "Push-out speed",
+      push_out,
+      "Overlaps that are there from the start open at most at this times sqrt(g d) [-], so that they do not explode.",
+      Double(0.));
+    prm.add_parameter(
+      "Search skin",
+      skin,
+      "Pairs nearer than this fraction of the largest diameter are remembered between contact searches [-]. Only "
+      "costs time, changes no result.",
+      Double(1e-3));
+  }
+} // namespace alluvium::grains
