@@ -585,11 +585,13 @@ namespace alluvium
       }
     MPI_Barrier(communicator);
     grains::save_grains(communicator, folder_new + "/grains", grains, contacts.archive());
+    // the run that goes on and the one that restarts shall both begin with a new contact search ...
+    contacts.forget_search();
     if (has_fluid)
       {
         mesh::FluidCheckpoint<dim>(folder_new)
           .save(space.dof_handler(), {&solver.solution()}, space.nodal_dof_handler(), {});
-        // the run that goes on and the one that restarts shall both begin with a fresh preconditioner
+        // ... and with a fresh preconditioner
         solver.linear_solver.clear();
       }
     std::string text;

@@ -1,7 +1,6 @@
 #include <alluvium/grains/contact_active_set.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace alluvium::grains
@@ -21,7 +20,6 @@ namespace alluvium::grains
         disc_takes_part.assign(candidates.discs.size(), 0);
         wall_takes_part.assign(candidates.walls.size(), 0);
       }
-    colouring.reset(bodies.n_discs());
 
     // v_n + bias >= 0: gaps within delta count as closed, so that a bed at rest does not chatter; overlaps open at
     // bounded speed.
@@ -58,7 +56,7 @@ namespace alluvium::grains
         double       vn_start = 0.;
         if (settings.restitution > 0.)
           vn_start = (start[p.j].x - start[p.i].x) * nx + (start[p.j].y - start[p.i].y) * ny;
-        active.push_back({&p, {nx, ny, gap}, bias(gap, vn_start, approach * over), colouring.add(p.i, p.j), false});
+        active.push_back({&p, {nx, ny, gap}, bias(gap, vn_start, approach * over), false});
       }
     for (std::size_t k = 0; k < candidates.walls.size(); ++k)
       {
@@ -81,7 +79,7 @@ namespace alluvium::grains
           }
         wall_takes_part[k]    = 1;
         const double vn_start = (w[0] - start[p.i].x) * point.nx + (w[1] - start[p.i].y) * point.ny;
-        active.push_back({&p, point, bias(point.gap, vn_start, vn_free), colouring.add(p.i), true});
+        active.push_back({&p, point, bias(point.gap, vn_start, vn_free), true});
       }
   }
 
@@ -136,19 +134,20 @@ namespace alluvium::grains
     return found;
   }
 
-  void ContactActiveSet::build(const ContactBodies   &bodies,
+  void ContactActiveSet::build(const unsigned int     n_colours,
+                               const ContactBodies   &bodies,
                                const WallGeometry    &walls,
                                const ContactSettings &settings,
                                ContactProblem        &problem)
   {
-    std::array<std::uint32_t, ContactColouring::n_colours + 1> begin{};
+    std::vector<std::uint32_t> begin(n_colours + 1, 0);
     for (const Active &a : active)
-      ++begin[a.colour + 1];
-    for (unsigned int c = 0; c < ContactColouring::n_colours; ++c)
+      ++begin[a.pair->colour + 1];
+    for (unsigned int c = 0; c < n_colours; ++c)
       begin[c + 1] += begin[c];
     sorted.resize(active.size());
     for (const Active &a : active)
-      sorted[begin[a.colour]++] = a;
+      sorted[begin[a.pair->colour]++] = a;
 
     // begin[c] has become the end of colour c
     problem.colour_begin.assign(1, 0);

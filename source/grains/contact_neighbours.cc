@@ -1,3 +1,4 @@
+#include <alluvium/grains/contact_colouring.h>
 #include <alluvium/grains/contact_neighbours.h>
 
 #include <algorithm>
@@ -17,6 +18,7 @@ namespace alluvium::grains
   {
     forget();
     pairs       = find_candidates(grains, walls, skin);
+    n_colours   = colour_contacts(grains, pairs);
     searched_id = grains.id;
     searched_x  = grains.x;
     searched_y  = grains.y;

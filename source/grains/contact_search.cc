@@ -182,7 +182,7 @@ namespace alluvium::grains
     const auto test = [&](const std::uint32_t p, const std::uint32_t q) {
       const double dx = g.x[p] - g.x[q], dy = g.y[p] - g.y[q], reach = g.radius[p] + g.radius[q] + skin;
       if (dx * dx + dy * dy < reach * reach)
-        candidates.discs.push_back({std::min(p, q), std::max(p, q)});
+        candidates.discs.push_back(g.id[p] < g.id[q] ? ContactPair{p, q} : ContactPair{q, p});
     };
     for (int row = 0; row < grid.ny; ++row)
       for (int column = 0; column < grid.nx; ++column)

@@ -72,8 +72,8 @@ namespace alluvium::grains
     prm.add_parameter(
       "Search skin",
       skin,
-      "Pairs nearer than this fraction of the largest diameter are remembered between contact searches [-]. Only "
-      "costs time, changes no result.",
+      "Pairs nearer than this fraction of the largest diameter are remembered between contact searches [-]. Costs "
+      "time; changes results only within the tolerance, by the order in which contacts are solved.",
       Double(1e-3));
   }
 } // namespace alluvium::grains

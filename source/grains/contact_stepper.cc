@@ -107,7 +107,7 @@ namespace alluvium::grains
         active.select(grains, bodies, walls, settings, margins, keep, neighbours.pairs);
         // A cold bed is not on the move, however many sweeps it takes.
         tolerance.patience = active.is_warm() ? settings.patience : settings.max_sweeps;
-        active.build(bodies, walls, settings, problem);
+        active.build(neighbours.n_colours, bodies, walls, settings, problem);
         problem.discs   = bodies.free;
         problem.n_discs = problem.n_owned_discs = bodies.n_discs();
         ContactSolution &solution               = outcome.solution;
@@ -354,6 +354,11 @@ namespace alluvium::grains
   const std::vector<std::uint8_t> &ContactStepper::touched() const
   {
     return implementation->touched;
+  }
+
+  void ContactStepper::forget_search()
+  {
+    implementation->neighbours.forget();
   }
 
   ContactArchive ContactStepper::archive() const

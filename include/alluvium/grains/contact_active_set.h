@@ -1,7 +1,6 @@
 #pragma once
 
 #include <alluvium/grains/contact_bodies.h>
-#include <alluvium/grains/contact_colouring.h>
 #include <alluvium/grains/contact_neighbours.h>
 #include <alluvium/grains/contact_settings.h>
 
@@ -50,8 +49,9 @@ namespace alluvium::grains
                       double                   h,
                       const ContactCandidates &candidates);
 
-    /** Write the contacts of @p problem, warm impulses included. */
-    void build(const ContactBodies   &bodies,
+    /** Write the contacts of @p problem, warm impulses included, in the order of their pairs' @p n_colours colours. */
+    void build(unsigned int           n_colours,
+               const ContactBodies   &bodies,
                const WallGeometry    &walls,
                const ContactSettings &settings,
                ContactProblem        &problem);
@@ -74,11 +74,9 @@ namespace alluvium::grains
       ContactPair *pair;
       ContactPoint point;
       double       bias;
-      unsigned int colour;
       bool         wall;
     };
     std::vector<Active>       active, sorted; // as selected, and by colour as in the problem
     std::vector<std::uint8_t> disc_takes_part, wall_takes_part;
-    ContactColouring          colouring;
   };
 } // namespace alluvium::grains

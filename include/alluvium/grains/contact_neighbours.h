@@ -15,6 +15,7 @@ namespace alluvium::grains
   {
   public:
     ContactCandidates pairs;
+    unsigned int      n_colours = 0; // of the pairs
 
     /** Search anew all pairs with gaps below @p skin [m]; known pairs keep their impulses. */
     void search(const GrainArrays &grains, const WallGeometry &walls, double skin);

@@ -9,10 +9,12 @@
 
 namespace alluvium::grains
 {
-  /** Two grains (i < j), or grain i and wall segment j, that may touch, and the impulse they last exchanged [N s/m]. */
+  /** Two grains, the one of lower id first, or grain i and wall segment j, that may touch, and the impulse they last
+   * exchanged [N s/m]. */
   struct ContactPair
   {
     std::uint32_t i, j;
+    std::uint32_t colour = 0; // pairs of one colour share no grain; see colour_contacts()
     double        rn = 0., rt = 0.;
   };
 
@@ -50,7 +52,7 @@ namespace alluvium::grains
     void find_shared_ends();
   };
 
-  /** All pairs that may touch, found with a uniform cell grid. Every vector is sorted by (i, j). */
+  /** All pairs that may touch, found with a uniform cell grid. Where the grains are sorted by id, so are the pairs. */
   struct ContactCandidates
   {
     std::vector<ContactPair> discs, walls;

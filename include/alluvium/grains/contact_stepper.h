@@ -27,8 +27,8 @@ namespace alluvium::grains
    * where the contact impulses P obey v_n + gap / h >= 0, Coulomb friction and Newton's restitution at the velocity
    * level. A grain's spin answers to its true inertia m r^2 / 2. A grain of infinite mass keeps its velocity.
    *
-   * Runs on replicated arrays and communicates nothing: the same input gives the same bits. The result depends on the
-   * grains and on the archived impulses, not on when the last contact search was.
+   * Runs on replicated arrays and communicates nothing: the same input gives the same bits. When the last contact
+   * search was decides in which order contacts are solved, which shows within the tolerance.
    */
   class ContactStepper
   {
@@ -53,6 +53,9 @@ namespace alluvium::grains
 
     /** Whether each grain had a contact impulse in the last advance(); n() entries of 0 or 1. */
     const std::vector<std::uint8_t> &touched() const;
+
+    /** Search anew in the next step: going on from here then gives the same bits as a restart from the archive. */
+    void forget_search();
 
     ContactArchive archive() const;
     void           set_archive(ContactArchive archive);
