@@ -112,7 +112,7 @@ namespace alluvium::grains
                                       const double          beta)
     {
       const std::size_t begin = problem.colour_begin[colour], end = problem.colour_begin[colour + 1];
-      const std::size_t n_packs  = packed && problem.independent(colour) ? (end - begin) / pack_size : 0;
+      const std::size_t n_packs  = packed ? (end - begin) / pack_size : 0;
       const std::size_t n_single = end - begin - n_packs * pack_size;
 
       SweepTerms<Pack>   packs(sums);

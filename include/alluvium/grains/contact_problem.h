@@ -49,21 +49,16 @@ namespace alluvium::grains
    */
   struct ContactProblem
   {
-    static constexpr unsigned int max_colours = 64;
-
     std::vector<Disc>          discs; // in: free velocities; out: with the contact impulses. Owned, ghosts, dummies
     std::size_t                n_discs       = 0; // owned and ghosts
     std::size_t                n_owned_discs = 0;
     std::vector<Contact>       contacts;          // in: warm impulses; out: the solution
     std::vector<std::uint32_t> colour_begin{};    // contacts of colour c are [colour_begin[c], colour_begin[c + 1]) and
-                                                  // share no disc, see independent()
+                                                  // share no disc
     double               impulse_scale = 1.;      // smallest impulse that matters [N s/m]: mean mass * g * dt, say
     ContactCommunicator *communicator  = nullptr; // none on one rank
 
     std::size_t n_colours() const { return colour_begin.empty() ? 0 : colour_begin.size() - 1; }
-
-    /** Whether contacts of @p colour share no disc. The last possible colour takes what found no other. */
-    static bool independent(const unsigned int colour) { return colour + 1 < max_colours; }
 
     /** Whether sums over all ranks take @p contact from this one. */
     bool counts(const Contact &contact) const { return contact.i < n_owned_discs; }
