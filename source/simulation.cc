@@ -418,6 +418,7 @@ namespace alluvium
     time = ++n_steps * dt;
 
     counts["contact sweeps"] += contact_report.n_sweeps;
+    counts["contact steps at rest"] += contact_report.at_rest;
     counts["contact sub-steps"] += contact_report.n_substeps;
     counts["contact sub-steps halved"] += contact_report.n_halvings;
     counts["contact sub-steps not converged"] += contact_report.n_unconverged;
@@ -439,7 +440,8 @@ namespace alluvium
 
   /**
    * The first prediction needs the contact forces at rest: without them the bed would "fall" in it. They come from a
-   * step of the contacts under the grains' reduced weight, whose motion is thrown away.
+   * step of the contacts under the grains' reduced weight, whose motion is thrown away; or from some steps, if nothing
+   * moves in them: then the bed is known to be at rest when the run starts.
    */
   void Simulation::Implementation::find_initial_contact_forces()
   {
@@ -452,11 +454,14 @@ namespace alluvium
           loads.fx[i] -= displaced * gravity[0];
           loads.fy[i] -= displaced * gravity[1];
         }
-    grains::GrainArrays trial = grains;
-    contact_report            = contacts.advance(trial, loads, parameters.time_step, gravity);
-    touched                   = contacts.touched();
-    grains.fcx                = trial.fcx;
-    grains.fcy                = trial.fcy;
+    grains::GrainArrays trial         = grains;
+    unsigned int        n_steps_tried = 0;
+    do
+      contact_report = contacts.advance(trial, loads, parameters.time_step, gravity);
+    while (contact_report.n_quiet == ++n_steps_tried);
+    touched    = contacts.touched();
+    grains.fcx = trial.fcx;
+    grains.fcy = trial.fcy;
   }
 
 

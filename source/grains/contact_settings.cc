@@ -25,19 +25,22 @@ namespace alluvium::grains
       residual_tolerance,
       "How far a contact impulse may be from its law, root mean square over all contacts, over the root mean "
       "square impulse or, if larger, that of the weight of one grain in a sub-step [-]. With much more than 1e-5 the "
-      "floor of a bed no longer carries all of its weight.",
+      "floor of a bed no longer carries all of its weight; with much more than 1e-6 a loaded bed creeps.",
       Double(0.));
     prm.add_parameter("Largest violation", violation_tolerance, "The same for the worst contact [-].", Double(0.));
+    prm.add_parameter("Patience",
+                      patience,
+                      "After this many sweeps (ten times as many where the grains are not on the move) the tolerances "
+                      "grow with the fourth power of the number of sweeps: where grains slide, a tight tolerance may "
+                      "be out of reach, and there it matters less.",
+                      Integer(1));
+    prm.add_parameter("Moving speed",
+                      moving_speed,
+                      "The grains are on the move if their root mean square speed is above this times g dt [-]. Where "
+                      "they are not, a looser tolerance would let a loaded bed creep.",
+                      Double(0.));
     prm.add_parameter(
-      "Patience",
-      patience,
-      "After this many sweeps the grains are taken to be on the move, and the looser tolerance will do.",
-      Integer(1));
-    prm.add_parameter(
-      "Loose factor",
-      loose,
-      "How much larger the residual tolerance and the largest violation are after that [-]. 1: never looser.",
-      Double(1.));
+      "Loose factor", loose, "The most by which the tolerances grow [-]. 1: they never do.", Double(1.));
     prm.add_parameter("Largest number of sweeps",
                       max_sweeps,
                       "A sub-step that is not solved after this many sweeps is taken as two halves.",
@@ -69,6 +72,12 @@ namespace alluvium::grains
       push_out,
       "Overlaps that are there from the start open at most at this times sqrt(g d) [-], so that they do not explode.",
       Double(0.));
+    prm.add_parameter("Steps to rest",
+                      rest_steps,
+                      "When over this many steps no load has changed by more than 1e-3 of a grain's weight and no "
+                      "grain has moved by more than an acceleration of 4e-4 g would have moved it, the grains "
+                      "stand still, and contacts are solved no more until something changes. 0: always solve.",
+                      Integer(0));
     prm.add_parameter(
       "Search skin",
       skin,

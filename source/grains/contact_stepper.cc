@@ -4,6 +4,7 @@
 #include <alluvium/grains/contact_search.h>
 #include <alluvium/grains/contact_solver.h>
 #include <alluvium/grains/contact_stepper.h>
+#include <alluvium/grains/rest.h>
 #include <alluvium/utilities/plugin.h>
 
 #include <algorithm>
@@ -25,6 +26,7 @@ namespace alluvium::grains
     PluginChoice<ContactSolver> choice;
     WallGeometry                walls;
     ContactNeighbours           neighbours;
+    Rest                        rest;
     std::vector<std::uint8_t>   touched;
 
     ContactReport advance(GrainArrays &grains, const GrainLoads &loads, double dt, std::array<double, 2> gravity);
@@ -61,8 +63,10 @@ namespace alluvium::grains
       return *own_solver;
     }
 
+    double         wall_speed() const; // of the fastest [m/s]
     void           set_scales(const GrainArrays &grains, std::array<double, 2> gravity);
     unsigned int   count_substeps(const GrainArrays &grains, const GrainLoads &loads, double dt) const;
+    double         root_mean_square_speed() const; // at the start of the sub-step
     ContactMargins choose_margins(double h, double velocity_scale) const;
     Outcome        solve(
              const GrainArrays &grains, const ContactMargins &margins, double slack, double wall_speed, ContactReport &report);
@@ -71,19 +75,35 @@ namespace alluvium::grains
   };
 
 
-  ContactMargins ContactStepper::Implementation::choose_margins(const double h, const double velocity_scale) const
+  double ContactStepper::Implementation::wall_speed() const
   {
-    const double velocity_unit = g > 0. ? std::sqrt(g * d_min) : velocity_scale;
-    double       mean_square   = 0.;
+    double speed = 0.;
+    for (const WallSegment &w : walls.segments())
+      speed = std::max(speed, std::hypot(w.velocity[0], w.velocity[1]));
+    return speed;
+  }
+
+
+  double ContactStepper::Implementation::root_mean_square_speed() const
+  {
+    double mean_square = 0.;
     for (const Disc &v : bodies.start)
       mean_square += (v.x * v.x + v.y * v.y) / bodies.n_discs();
+    return std::sqrt(mean_square);
+  }
+
+
+  ContactMargins ContactStepper::Implementation::choose_margins(const double h, const double velocity_scale) const
+  {
+    const double   velocity_unit = g > 0. ? std::sqrt(g * d_min) : velocity_scale;
     ContactMargins margins;
     margins.h        = h;
     margins.base_h   = base_h;
     margins.delta    = std::min(settings.dead_zone * base_h * velocity_unit, 1e-3 * d_min);
     margins.push_out = settings.push_out * velocity_unit;
     // The faster the grains, the more likely a solution closes a gap. Fewer rounds then.
-    margins.nearness = std::max({2. * margins.delta, 2e-3 * d_min, std::min(h * std::sqrt(mean_square), 0.1 * d_min)});
+    margins.nearness =
+      std::max({2. * margins.delta, 2e-3 * d_min, std::min(h * root_mean_square_speed(), 0.1 * d_min)});
     return margins;
   }
 
@@ -95,18 +115,21 @@ namespace alluvium::grains
                                                                                 const double          wall_speed,
                                                                                 ContactReport        &report)
   {
-    const double     h = margins.h;
-    ContactTolerance tolerance{settings.residual_tolerance,
+    const double       h = margins.h;
+    ContactTolerance   tolerance{settings.residual_tolerance,
                                settings.violation_tolerance,
                                settings.loose,
                                settings.patience,
                                settings.max_sweeps};
-    Outcome          outcome;
+    const unsigned int patience = root_mean_square_speed() > settings.moving_speed * problem.impulse_scale / mean_mass
+                                    ? settings.patience
+                                    : 10 * settings.patience;
+    Outcome            outcome;
     for (bool keep = false;; keep = true)
       {
         active.select(grains, bodies, walls, settings, margins, keep, neighbours.pairs);
         // A cold bed is not on the move, however many sweeps it takes.
-        tolerance.patience = active.is_warm() ? settings.patience : settings.max_sweeps;
+        tolerance.patience = !active.is_warm() ? settings.max_sweeps : patience;
         active.build(neighbours.n_colours, bodies, walls, settings, problem);
         problem.discs   = bodies.free;
         problem.n_discs = problem.n_owned_discs = bodies.n_discs();
@@ -142,9 +165,7 @@ namespace alluvium::grains
     GrainArrays &grains, const GrainLoads &loads, const double h, const unsigned int level, ContactReport &report)
   {
     bodies.set(grains, loads, h, settings.rotation);
-    double wall_speed = 0.;
-    for (const WallSegment &w : walls.segments())
-      wall_speed = std::max(wall_speed, std::hypot(w.velocity[0], w.velocity[1]));
+    const double wall_speed = this->wall_speed();
 
     // Scales: what gravity does in the sub-step; without gravity, what moves.
     const auto speeds         = largest_speeds(bodies.start, bodies.n_discs());
@@ -290,6 +311,11 @@ namespace alluvium::grains
       return report;
 
     set_scales(grains, gravity);
+    rest.steps = settings.rest_steps;
+    const Rest::Scales scales{dt, g, mean_mass * g, d_min};
+    if (wall_speed() == 0. && rest.holds(grains, loads, scales))
+      return rest.stand_still(loads, grains, touched);
+
     px.assign(n, 0.);
     py.assign(n, 0.);
     wall_impulse.assign(walls.segments().size(), {{0., 0.}});
@@ -310,6 +336,7 @@ namespace alluvium::grains
         force[1] += wall_impulse[k][1] / dt;
       }
     active.measure_overlaps(grains, walls, report.mean_penetration, report.max_penetration);
+    rest.watch(grains, loads, scales, touched, report);
     return report;
   }
 
@@ -336,6 +363,7 @@ namespace alluvium::grains
   {
     implementation->walls.set(std::move(walls));
     implementation->neighbours.forget();
+    implementation->rest.forget();
   }
 
   const std::vector<WallSegment> &ContactStepper::walls() const
@@ -359,6 +387,7 @@ namespace alluvium::grains
   void ContactStepper::forget_search()
   {
     implementation->neighbours.forget();
+    implementation->rest.forget();
   }
 
   ContactArchive ContactStepper::archive() const
@@ -369,5 +398,6 @@ namespace alluvium::grains
   void ContactStepper::set_archive(ContactArchive archive)
   {
     implementation->neighbours.set_archive(std::move(archive));
+    implementation->rest.forget();
   }
 } // namespace alluvium::grains

@@ -11,7 +11,9 @@ namespace alluvium::grains
   {
     std::map<std::string, std::array<double, 2>> wall_force; // mean force on each wall, by name [N/m]
 
-    unsigned int       n_contacts    = 0; // that carried an impulse in the last sub-step
+    bool               at_rest       = false; // nothing was solved: loads and grains have not changed; see Rest
+    unsigned int       n_quiet       = 0;     // steps without change up to now, this one included
+    unsigned int       n_contacts    = 0;     // that carried an impulse in the last sub-step
     unsigned int       n_substeps    = 0;
     unsigned int       n_halvings    = 0; // sub-steps taken as two halves: no convergence, or grains moved too far
     unsigned int       n_loose       = 0; // solves that ended at the loose tolerance

@@ -2,6 +2,8 @@
 
 #include <alluvium/grains/contact_problem.h>
 
+#include <algorithm>
+
 namespace dealii
 {
   class ParameterHandler;
@@ -12,17 +14,22 @@ namespace alluvium::grains
   /**
    * When a contact solution is good enough. Both numbers are about the natural map: how far an impulse would still move
    * if its contact alone were solved once more, over the root mean square of the impulses (at least the problem's
-   * impulse scale).
+   * impulse scale). Where that takes more than `patience` sweeps (grains slide, and friction is no minimisation), less
+   * and less is asked: with the fourth power of the sweeps, up to the factor `loose`.
    */
   struct ContactTolerance
   {
-    double       residual   = 1e-5; // root mean square over the contacts
-    double       violation  = 1e-3; // maximum over the contacts
-    double       loose      = 10.;  // both may be this much larger ...
-    unsigned int patience   = 100;  // ... after this many sweeps: the grains move, and no earlier solution helps
+    double       residual   = 1e-6; // root mean square over the contacts
+    double       violation  = 1e-4; // maximum over the contacts
+    double       loose      = 100.;
+    unsigned int patience   = 100;
     unsigned int max_sweeps = 2000; // then the solver gives up, and the caller takes a smaller sub-step
 
-    double allowance(const unsigned int sweeps) const { return sweeps < patience ? 1. : loose; }
+    double allowance(const unsigned int sweeps) const
+    {
+      const double over = static_cast<double>(sweeps) / patience;
+      return std::clamp(over * over * over * over, 1., std::max(1., loose));
+    }
   };
 
   /** How a solve ended. */

@@ -1,0 +1,94 @@
+#include <alluvium/grains/rest.h>
+
+#include <algorithm>
+
+namespace alluvium::grains
+{
+  namespace
+  {
+    constexpr double smallest_load_change = 1e-3; // of a grain's weight, that counts
+
+    double square(const double a, const double b)
+    {
+      return a * a + b * b;
+    }
+
+    /** How far a grain at rest may seem to move while it is watched. */
+    double largest_move(const Rest::Scales &scales)
+    {
+      return std::min(0.02 * scales.g * scales.dt * scales.dt, 1e-3 * scales.diameter);
+    }
+  } // namespace
+
+
+  bool Rest::unchanged(const GrainArrays &grains, const GrainLoads &loads, const Scales &scales) const
+  {
+    const double move = largest_move(scales), load = smallest_load_change * scales.weight;
+    if (id != grains.id)
+      return false;
+    for (std::size_t k = 0; k < grains.n(); ++k)
+      if (square(grains.x[k] - x[k], grains.y[k] - y[k]) > move * move ||
+          square(loads.fx[k] - fx[k], loads.fy[k] - fy[k]) > load * load)
+        return false;
+    return true;
+  }
+
+
+  bool Rest::holds(const GrainArrays &grains, const GrainLoads &loads, const Scales &scales) const
+  {
+    if (steps == 0 || n_quiet < steps || !(scales.g > 0.) || !unchanged(grains, loads, scales))
+      return false;
+    const double speed = largest_move(scales) / scales.dt; // somebody else may have given them one
+    for (std::size_t k = 0; k < grains.n(); ++k)
+      if (square(grains.vx[k], grains.vy[k]) + square(grains.radius[k] * grains.omega[k], 0.) > speed * speed)
+        return false;
+    return true;
+  }
+
+
+  ContactReport
+  Rest::stand_still(const GrainLoads &loads, GrainArrays &grains, std::vector<std::uint8_t> &touched) const
+  {
+    for (std::size_t k = 0; k < grains.n(); ++k)
+      {
+        grains.vx[k] = grains.vy[k] = grains.omega[k] = 0.;
+        grains.fcx[k]                                 = -loads.fx[k];
+        grains.fcy[k]                                 = -loads.fy[k];
+      }
+    touched              = last_touched;
+    ContactReport report = last_report;
+    report.n_sweeps = report.n_updates = 0;
+    report.n_substeps = report.n_halvings = report.n_loose = 0;
+    report.max_velocity                                    = 0.;
+    report.at_rest                                         = true;
+    return report;
+  }
+
+
+  void Rest::watch(const GrainArrays               &grains,
+                   const GrainLoads                &loads,
+                   const Scales                    &scales,
+                   const std::vector<std::uint8_t> &touched,
+                   ContactReport                   &report)
+  {
+    if (steps == 0 || !(scales.g > 0.))
+      return;
+    if (n_quiet > 0 && report.n_unconverged == 0 && unchanged(grains, loads, scales))
+      ++n_quiet;
+    else
+      {
+        n_quiet = 1;
+        id      = grains.id;
+        x       = grains.x;
+        y       = grains.y;
+        fx      = loads.fx;
+        fy      = loads.fy;
+      }
+    report.n_quiet = n_quiet;
+    if (n_quiet >= steps)
+      {
+        last_report  = report;
+        last_touched = touched;
+      }
+  }
+} // namespace alluvium::grains
