@@ -223,6 +223,7 @@ namespace alluvium
     domain.initialize(communicator, directory);
     const auto walls = grain_setup.walls(domain);
     contacts.set_walls(walls);
+    contacts.set_periodicity(domain.periodicity());
     grains                            = grain_setup.make(communicator, domain, walls, gravity, directory);
     const std::array<double, 2> lower = {{domain.lower()[0], domain.lower()[1]}},
                                 upper = {{domain.upper()[0], domain.upper()[1]}};

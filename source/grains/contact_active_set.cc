@@ -5,13 +5,13 @@
 
 namespace alluvium::grains
 {
-  void ContactActiveSet::select(const GrainArrays     &grains,
-                                const ContactBodies   &bodies,
-                                const WallGeometry    &walls,
-                                const ContactSettings &settings,
-                                const ContactMargins  &margins,
-                                const bool             keep,
-                                ContactCandidates     &candidates)
+  void ContactActiveSet::select(const GrainArrays      &grains,
+                                const ContactBodies    &bodies,
+                                const ContactGeometry  &geometry,
+                                const ContactMaterials &materials,
+                                const ContactMargins   &margins,
+                                const bool              keep,
+                                ContactCandidates      &candidates)
   {
     const double h = margins.h, delta = margins.delta, nearness = margins.nearness;
     active.clear();
@@ -23,14 +23,14 @@ namespace alluvium::grains
 
     // v_n + bias >= 0: gaps within delta count as closed, so that a bed at rest does not chatter; overlaps open at
     // bounded speed.
-    const auto bias = [&](const double gap, const double vn_start, const double vn_free) {
+    const auto bias = [&](const double gap, const double vn_start, const double vn_free, const double restitution) {
       double b = 0.;
       if (gap > delta)
         b = (gap - delta) / h;
       else if (gap < -delta)
-        b = std::max(settings.correction * (gap + delta) / margins.base_h, -margins.push_out);
-      if (settings.restitution > 0. && vn_start < -settings.threshold_velocity && gap + h * vn_free < delta)
-        b = gap > 0. ? settings.restitution * vn_start : std::min(b, settings.restitution * vn_start);
+        b = std::max(margins.correction * (gap + delta) / margins.base_h, -margins.push_out);
+      if (restitution > 0. && vn_start < -margins.threshold && gap + h * vn_free < delta)
+        b = gap > 0. ? restitution * vn_start : std::min(b, restitution * vn_start);
       return b;
     };
 
@@ -39,13 +39,14 @@ namespace alluvium::grains
       {
         ContactPair &p  = candidates.discs[k];
         const Disc  &vi = free[p.i], &vj = free[p.j];
-        const double dx = grains.x[p.j] - grains.x[p.i], dy = grains.y[p.j] - grains.y[p.i];
+        double       dx = grains.x[p.j] - grains.x[p.i], dy = grains.y[p.j] - grains.y[p.i];
+        geometry.periodicity.shorten(dx, dy);
         const double distance = std::sqrt(dx * dx + dy * dy),
                      gap      = distance - (grains.radius[p.i] + grains.radius[p.j]);
         const double approach = (vj.x - vi.x) * dx + (vj.y - vi.y) * dy;
         if (!(keep && disc_takes_part[k]) && gap >= nearness && (gap - nearness) * distance + h * approach >= 0.)
           {
-            p.rn = p.rt = 0.;
+            p.rn = p.rt = p.rr = 0.;
             continue;
           }
         if (bodies.free[p.i].inverse_mass + bodies.free[p.j].inverse_mass == 0.)
@@ -54,32 +55,32 @@ namespace alluvium::grains
         const double over  = distance > 0. ? 1. / distance : 0.;
         const double nx = distance > 0. ? dx * over : 1., ny = dy * over;
         double       vn_start = 0.;
-        if (settings.restitution > 0.)
+        if (materials.grains.restitution > 0.)
           vn_start = (start[p.j].x - start[p.i].x) * nx + (start[p.j].y - start[p.i].y) * ny;
-        active.push_back({&p, {nx, ny, gap}, bias(gap, vn_start, approach * over), false});
+        active.push_back(
+          {&p, {nx, ny, gap}, bias(gap, vn_start, approach * over, materials.grains.restitution), false});
       }
     for (std::size_t k = 0; k < candidates.walls.size(); ++k)
       {
         ContactPair &p = candidates.walls[k];
         const Disc  &v = free[p.i];
-        const auto  &w = walls.segments()[p.j].velocity;
         ContactPoint point;
         if (bodies.free[p.i].inverse_mass == 0. ||
-            !walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point))
+            !geometry.walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point))
           {
             wall_takes_part[k] = 0;
-            p.rn = p.rt = 0.;
+            p.rn = p.rt = p.rr = 0.;
             continue;
           }
-        const double vn_free = (w[0] - v.x) * point.nx + (w[1] - v.y) * point.ny;
+        const double vn_free = (point.vx - v.x) * point.nx + (point.vy - v.y) * point.ny;
         if (!(keep && wall_takes_part[k]) && point.gap >= nearness && point.gap - nearness + h * vn_free >= 0.)
           {
-            p.rn = p.rt = 0.;
+            p.rn = p.rt = p.rr = 0.;
             continue;
           }
         wall_takes_part[k]    = 1;
-        const double vn_start = (w[0] - start[p.i].x) * point.nx + (w[1] - start[p.i].y) * point.ny;
-        active.push_back({&p, point, bias(point.gap, vn_start, vn_free), true});
+        const double vn_start = (point.vx - start[p.i].x) * point.nx + (point.vy - start[p.i].y) * point.ny;
+        active.push_back({&p, point, bias(point.gap, vn_start, vn_free, materials.walls[p.j].restitution), true});
       }
   }
 
@@ -95,7 +96,7 @@ namespace alluvium::grains
 
   bool ContactActiveSet::add_violated(const GrainArrays       &grains,
                                       const ContactBodies     &bodies,
-                                      const WallGeometry      &walls,
+                                      const ContactGeometry   &geometry,
                                       const std::vector<Disc> &velocity,
                                       const double             h,
                                       const ContactCandidates &candidates)
@@ -121,11 +122,10 @@ namespace alluvium::grains
         {
           const ContactPair &p = candidates.walls[k];
           const Disc        &v = velocity[p.i];
-          const auto        &w = walls.segments()[p.j].velocity;
           ContactPoint       point;
           if (bodies.free[p.i].inverse_mass > 0. &&
-              walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point) &&
-              point.gap + h * ((w[0] - v.x) * point.nx + (w[1] - v.y) * point.ny) < 0.)
+              geometry.walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point) &&
+              point.gap + h * ((point.vx - v.x) * point.nx + (point.vy - v.y) * point.ny) < 0.)
             {
               wall_takes_part[k] = 1;
               found              = true;
@@ -134,11 +134,12 @@ namespace alluvium::grains
     return found;
   }
 
-  void ContactActiveSet::build(const unsigned int     n_colours,
-                               const ContactBodies   &bodies,
-                               const WallGeometry    &walls,
-                               const ContactSettings &settings,
-                               ContactProblem        &problem)
+  void ContactActiveSet::build(const unsigned int      n_colours,
+                               const GrainArrays      &grains,
+                               const ContactBodies    &bodies,
+                               const ContactGeometry  &geometry,
+                               const ContactMaterials &materials,
+                               ContactProblem         &problem)
   {
     std::vector<std::uint32_t> begin(n_colours + 1, 0);
     for (const Active &a : active)
@@ -156,6 +157,7 @@ namespace alluvium::grains
       problem.colour_begin.pop_back();
 
     problem.contacts.resize(active.size());
+    problem.rolling.resize(materials.rolls ? active.size() : 0);
     unsigned int dummy = 0;
     for (std::size_t k = 0; k < active.size(); ++k)
       {
@@ -171,11 +173,22 @@ namespace alluvium::grains
         c.rt            = a.pair->rt;
         if (a.wall)
           {
-            const auto &w = walls.segments()[a.pair->j].velocity;
-            c.bias_n += w[0] * c.nx + w[1] * c.ny;
-            c.bias_t = w[1] * c.nx - w[0] * c.ny;
+            c.bias_n += a.point.vx * c.nx + a.point.vy * c.ny;
+            c.bias_t = a.point.vy * c.nx - a.point.vx * c.ny;
           }
-        c.friction = a.wall ? settings.wall_friction : settings.friction;
+        const ContactMaterial &material = a.wall ? materials.walls[a.pair->j] : materials.grains;
+        c.friction                      = material.friction;
+        if (materials.rolls)
+          {
+            const double ri = grains.radius[c.i], rj = a.wall ? 0. : grains.radius[c.j];
+            const double reduced = a.wall ? ri : ri * rj / (ri + rj);
+            problem.rolling[k]   = {a.pair->rr,
+                                    a.pair->rr,
+                                    reduced / ri,
+                                  a.wall ? 0. : reduced / rj,
+                                  a.wall ? reduced * geometry.walls.segments()[a.pair->j].spin : 0.,
+                                    material.rolling};
+          }
       }
   }
 
@@ -185,6 +198,7 @@ namespace alluvium::grains
       {
         sorted[k].pair->rn = problem.contacts[k].rn;
         sorted[k].pair->rt = problem.contacts[k].rt;
+        sorted[k].pair->rr = problem.rolling.empty() ? 0. : problem.rolling[k].impulse;
       }
   }
 
@@ -193,10 +207,10 @@ namespace alluvium::grains
     return std::any_of(active.begin(), active.end(), [](const Active &a) { return a.pair->rn > 0.; });
   }
 
-  void ContactActiveSet::measure_overlaps(const GrainArrays  &grains,
-                                          const WallGeometry &walls,
-                                          double             &mean,
-                                          double             &largest) const
+  void ContactActiveSet::measure_overlaps(const GrainArrays     &grains,
+                                          const ContactGeometry &geometry,
+                                          double                &mean,
+                                          double                &largest) const
   {
     std::size_t n = 0;
     mean = largest = 0.;
@@ -207,10 +221,9 @@ namespace alluvium::grains
         ContactPoint       point;
         if (!a.wall)
           {
-            const double dx = grains.x[p.j] - grains.x[p.i], dy = grains.y[p.j] - grains.y[p.i];
-            gap = std::sqrt(dx * dx + dy * dy) - (grains.radius[p.i] + grains.radius[p.j]);
+            gap = touch(grains, geometry.periodicity, p.i, p.j).gap;
           }
-        else if (walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point))
+        else if (geometry.walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point))
           gap = point.gap;
         if (gap < 0.)
           {

@@ -14,10 +14,10 @@ namespace alluvium::grains
     }
   } // namespace
 
-  void ContactNeighbours::search(const GrainArrays &grains, const WallGeometry &walls, const double skin)
+  void ContactNeighbours::search(const GrainArrays &grains, const ContactGeometry &geometry, const double skin)
   {
     forget();
-    pairs       = find_candidates(grains, walls, skin);
+    pairs       = find_candidates(grains, geometry, skin);
     n_colours   = colour_contacts(grains, pairs);
     searched_id = grains.id;
     searched_x  = grains.x;
@@ -50,8 +50,10 @@ namespace alluvium::grains
           ++it;
         if (it != list.end() && it->first == k)
           {
-            p.rn = it->second->rn;
-            p.rt = it->second->rt;
+            p.bonded = it->second->bonded;
+            p.rn     = it->second->rn;
+            p.rt     = it->second->rt;
+            p.rr     = it->second->rr;
           }
       }
   }
@@ -63,12 +65,14 @@ namespace alluvium::grains
     pairs    = {};
   }
 
-  double ContactNeighbours::slack(const GrainArrays &grains) const
+  double ContactNeighbours::slack(const GrainArrays &grains, const Periodicity &periodicity) const
   {
     double first = 0., second = 0.;
     for (std::size_t k = 0; k < grains.n(); ++k)
       {
-        const double dx = grains.x[k] - searched_x[k], dy = grains.y[k] - searched_y[k], d = dx * dx + dy * dy;
+        double dx = grains.x[k] - searched_x[k], dy = grains.y[k] - searched_y[k];
+        periodicity.shorten(dx, dy);
+        const double d = dx * dx + dy * dy;
         if (d > first)
           {
             second = first;
@@ -90,11 +94,13 @@ namespace alluvium::grains
             {
               p.rn *= scale;
               p.rt *= scale;
+              p.rr *= scale;
             }
         for (auto &e : pending.entries)
           {
             e.rn *= scale;
             e.rt *= scale;
+            e.rr *= scale;
           }
       }
     warm_dt = h;
@@ -111,11 +117,11 @@ namespace alluvium::grains
     ContactArchive result;
     result.dt = warm_dt;
     for (const ContactPair &p : pairs.discs)
-      if (p.rn != 0. || p.rt != 0.)
-        result.entries.push_back({searched_id[p.i], searched_id[p.j], false, p.rn, p.rt});
+      if (p.rn != 0. || p.bonded)
+        result.entries.push_back({searched_id[p.i], searched_id[p.j], false, p.bonded, p.rn, p.rt, p.rr});
     for (const ContactPair &p : pairs.walls)
-      if (p.rn != 0. || p.rt != 0.)
-        result.entries.push_back({searched_id[p.i], ~p.j, true, p.rn, p.rt});
+      if (p.rn != 0. || p.bonded)
+        result.entries.push_back({searched_id[p.i], ~p.j, true, p.bonded, p.rn, p.rt, p.rr});
     return result;
   }
 

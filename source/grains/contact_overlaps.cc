@@ -8,24 +8,29 @@
 
 namespace alluvium::grains
 {
-  std::vector<Overlap>
-  find_overlaps(const GrainArrays &grains, const std::vector<WallSegment> &walls, const double tolerance)
+  std::vector<Overlap> find_overlaps(const GrainArrays              &grains,
+                                     const std::vector<WallSegment> &walls,
+                                     const double                    tolerance,
+                                     const Periodicity              &periodicity)
   {
-    WallGeometry geometry;
-    geometry.set(walls);
+    ContactGeometry geometry;
+    geometry.walls.set(walls);
+    geometry.periodicity               = periodicity;
     const ContactCandidates candidates = find_candidates(grains, geometry, 0.);
     std::vector<Overlap>    overlaps;
     for (const ContactPair &p : candidates.discs)
       {
-        const double depth = grains.radius[p.i] + grains.radius[p.j] -
-                             std::hypot(grains.x[p.i] - grains.x[p.j], grains.y[p.i] - grains.y[p.j]);
+        double dx = grains.x[p.j] - grains.x[p.i], dy = grains.y[p.j] - grains.y[p.i];
+        periodicity.shorten(dx, dy);
+        const double depth = grains.radius[p.i] + grains.radius[p.j] - std::hypot(dx, dy);
         if (depth > tolerance)
           overlaps.push_back({grains.id[p.i], grains.id[p.j], "", depth});
       }
     for (const ContactPair &p : candidates.walls)
       {
         ContactPoint point;
-        if (geometry.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point) && -point.gap > tolerance)
+        if (geometry.walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point) &&
+            -point.gap > tolerance)
           overlaps.push_back({grains.id[p.i], 0, walls[p.j].name.empty() ? "wall" : walls[p.j].name, -point.gap});
       }
     std::stable_sort(
@@ -33,9 +38,12 @@ namespace alluvium::grains
     return overlaps;
   }
 
-  void check_overlaps(const GrainArrays &grains, const std::vector<WallSegment> &walls, const double tolerance)
+  void check_overlaps(const GrainArrays              &grains,
+                      const std::vector<WallSegment> &walls,
+                      const double                    tolerance,
+                      const Periodicity              &periodicity)
   {
-    const std::vector<Overlap> overlaps = find_overlaps(grains, walls, tolerance);
+    const std::vector<Overlap> overlaps = find_overlaps(grains, walls, tolerance, periodicity);
     if (overlaps.empty())
       return;
     const Overlap     &worst = overlaps.front();

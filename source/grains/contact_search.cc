@@ -1,4 +1,5 @@
 #include <alluvium/grains/contact_search.h>
+#include <alluvium/utilities/user_error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,29 +31,37 @@ namespace alluvium::grains
       return std::hypot(w.a[0] + t * (w.b[0] - w.a[0]) - x, w.a[1] + t * (w.b[1] - w.a[1]) - y);
     }
 
-    /** Grains sorted into the cells of a grid over their bounding box. */
+    /** Grains sorted into the cells of a grid over their bounding box, or over the box where it is periodic. */
     struct CellGrid
     {
-      double                     x0, y0, width;
+      double                     x0, y0, width_x, width_y;
       int                        nx, ny;
       std::vector<std::uint32_t> begin, member; // grains of cell c: member[begin[c]] ... member[begin[c + 1] - 1]
 
-      int column(const double x) const { return std::clamp(static_cast<int>(std::floor((x - x0) / width)), 0, nx - 1); }
-      int row(const double y) const { return std::clamp(static_cast<int>(std::floor((y - y0) / width)), 0, ny - 1); }
+      int column(const double x) const
+      {
+        return std::clamp(static_cast<int>(std::floor((x - x0) / width_x)), 0, nx - 1);
+      }
+      int row(const double y) const { return std::clamp(static_cast<int>(std::floor((y - y0) / width_y)), 0, ny - 1); }
 
-      CellGrid(const GrainArrays &g, const double smallest_width)
-        : width(smallest_width)
+      CellGrid(const GrainArrays &g, const Periodicity &periodicity, const double smallest_width)
       {
         const auto [x_min, x_max] = std::minmax_element(g.x.begin(), g.x.end());
         const auto [y_min, y_max] = std::minmax_element(g.y.begin(), g.y.end());
-        x0                        = *x_min;
-        y0                        = *y_min;
-        const double lx = *x_max - x0, ly = *y_max - y0;
+        const bool   px = periodicity.length[0] > 0., py = periodicity.length[1] > 0.;
+        const double lx = px ? periodicity.length[0] : *x_max - *x_min,
+                     ly = py ? periodicity.length[1] : *y_max - *y_min;
+        x0              = px ? periodicity.lower[0] : *x_min;
+        y0              = py ? periodicity.lower[1] : *y_min;
+        double width    = smallest_width;
         // One grain that flew far away must not cost the memory of all the cells in between.
         while ((lx / width + 1.) * (ly / width + 1.) > 1024. + 8. * g.n())
           width *= 1.5;
-        nx = static_cast<int>(lx / width) + 1;
-        ny = static_cast<int>(ly / width) + 1;
+        // Cells of a periodic direction fill the box; the others end somewhere behind the last grain.
+        nx      = px ? std::max(1, static_cast<int>(lx / width)) : static_cast<int>(lx / width) + 1;
+        ny      = py ? std::max(1, static_cast<int>(ly / width)) : static_cast<int>(ly / width) + 1;
+        width_x = px ? lx / nx : width;
+        width_y = py ? ly / ny : width;
 
         std::vector<std::uint32_t> cell(g.n());
         begin.assign(static_cast<std::size_t>(nx) * ny + 1, 0);
@@ -67,7 +76,38 @@ namespace alluvium::grains
         std::vector<std::uint32_t> end(begin.begin(), begin.end() - 1);
         for (std::size_t k = 0; k < g.n(); ++k)
           member[end[cell[k]]++] = k;
+        wrap_x = px;
+        wrap_y = py;
       }
+
+      /** The neighbours that cell @p c is to be paired with, so that every two neighbours are paired once. */
+      const std::vector<std::uint32_t> &partners(const std::uint32_t c) const
+      {
+        const int column = c % nx, row = c / nx;
+        // With fewer than three cells in a period, a cell has the same neighbour on both sides.
+        const bool few = (wrap_x && nx < 3) || (wrap_y && ny < 3);
+        found.clear();
+        for (const auto &[x, y] : {std::array<int, 2>{{1, 0}}, {{-1, 1}}, {{0, 1}}, {{1, 1}}})
+          for (const int sign : {1, -1})
+            if (sign == 1 || few)
+              {
+                int cx = column + sign * x, cy = row + sign * y;
+                if (wrap_x)
+                  cx = (cx + nx) % nx;
+                if (wrap_y)
+                  cy = (cy + ny) % ny;
+                if (cx < 0 || cx >= nx || cy < 0 || cy >= ny)
+                  continue;
+                const std::uint32_t other = static_cast<std::uint32_t>(cy) * nx + cx;
+                if (!few || (other > c && std::find(found.begin(), found.end(), other) == found.end()))
+                  found.push_back(other);
+              }
+        return found;
+      }
+
+    private:
+      bool                               wrap_x, wrap_y;
+      mutable std::vector<std::uint32_t> found;
     };
 
     /** Sort by (i, j): a counting sort over i, then short runs by j. */
@@ -93,9 +133,20 @@ namespace alluvium::grains
   void WallGeometry::set(std::vector<WallSegment> segments)
   {
     walls  = std::move(segments);
-    moving = std::any_of(
-      walls.begin(), walls.end(), [](const WallSegment &w) { return w.velocity[0] != 0. || w.velocity[1] != 0.; });
+    moving = largest_speed() > 0.;
     find_shared_ends();
+  }
+
+  double WallGeometry::largest_speed() const
+  {
+    double speed = 0.;
+    for (const WallSegment &w : walls)
+      for (const auto &end : {w.a, w.b})
+        {
+          const auto v = w.velocity_at(end[0], end[1]);
+          speed        = std::max(speed, std::hypot(v[0], v[1]));
+        }
+    return speed;
   }
 
   void WallGeometry::find_shared_ends()
@@ -124,6 +175,20 @@ namespace alluvium::grains
     bool moved = false;
     for (WallSegment &w : walls)
       {
+        if (w.spin != 0.)
+          {
+            const double c = std::cos(w.spin * dt), s = std::sin(w.spin * dt);
+            for (auto *end : {&w.a, &w.b})
+              {
+                const double x = (*end)[0] - w.centre[0], y = (*end)[1] - w.centre[1];
+                *end = {
+                  {w.centre[0] + c * x - s * y + dt * w.velocity[0], w.centre[1] + s * x + c * y + dt * w.velocity[1]}};
+              }
+            for (unsigned int d = 0; d < 2; ++d)
+              w.centre[d] += dt * w.velocity[d];
+            moved = true;
+            continue;
+          }
         const double ex = w.b[0] - w.a[0], ey = w.b[1] - w.a[1], e2 = ex * ex + ey * ey;
         const double along = e2 == 0. ? 0. : (w.velocity[0] * ex + w.velocity[1] * ey) / e2;
         const double dx = dt * (w.velocity[0] - along * ex), dy = dt * (w.velocity[1] - along * ey);
@@ -162,10 +227,21 @@ namespace alluvium::grains
       point = {dx / distance, dy / distance, distance - r};
     else
       point = {0., -1., -r};
+    const auto v = w.velocity_at(x + dx, y + dy);
+    point.vx     = v[0];
+    point.vy     = v[1];
     return true;
   }
 
-  ContactCandidates find_candidates(const GrainArrays &g, const WallGeometry &walls, const double skin)
+  ContactPoint touch(const GrainArrays &g, const Periodicity &periodicity, const std::uint32_t i, const std::uint32_t j)
+  {
+    double dx = g.x[j] - g.x[i], dy = g.y[j] - g.y[i];
+    periodicity.shorten(dx, dy);
+    const double distance = std::sqrt(dx * dx + dy * dy), gap = distance - (g.radius[i] + g.radius[j]);
+    return distance > 0. ? ContactPoint{dx / distance, dy / distance, gap} : ContactPoint{1., 0., gap};
+  }
+
+  ContactCandidates find_candidates(const GrainArrays &g, const ContactGeometry &geometry, const double skin)
   {
     ContactCandidates candidates;
     const std::size_t n = g.n();
@@ -175,48 +251,48 @@ namespace alluvium::grains
       if (!std::isfinite(g.x[k]) || !std::isfinite(g.y[k]))
         throw std::runtime_error("The position of grain " + std::to_string(g.id[k]) + " is not a finite number.");
 
-    const double   r_max = *std::max_element(g.radius.begin(), g.radius.end());
-    const CellGrid grid(g, 2. * r_max + skin);
+    const Periodicity &periodicity = geometry.periodicity;
+    const double       r_max       = *std::max_element(g.radius.begin(), g.radius.end());
+    for (const double length : periodicity.length)
+      check_user(length == 0. || length > 2. * (2. * r_max + skin),
+                 "Domain/Periodic directions: the domain must be wider than two of the largest grains (and twice the "
+                 "distance at which contacts are looked for), or a grain would touch another one on both sides.");
+    const CellGrid grid(g, periodicity, 2. * r_max + skin);
     candidates.discs.reserve(4 * n);
 
     const auto test = [&](const std::uint32_t p, const std::uint32_t q) {
-      const double dx = g.x[p] - g.x[q], dy = g.y[p] - g.y[q], reach = g.radius[p] + g.radius[q] + skin;
+      double dx = g.x[p] - g.x[q], dy = g.y[p] - g.y[q];
+      periodicity.shorten(dx, dy);
+      const double reach = g.radius[p] + g.radius[q] + skin;
       if (dx * dx + dy * dy < reach * reach)
         candidates.discs.push_back(g.id[p] < g.id[q] ? ContactPair{p, q} : ContactPair{q, p});
     };
-    for (int row = 0; row < grid.ny; ++row)
-      for (int column = 0; column < grid.nx; ++column)
-        {
-          const std::size_t c = static_cast<std::size_t>(row) * grid.nx + column;
-          for (std::uint32_t a = grid.begin[c]; a < grid.begin[c + 1]; ++a)
-            {
-              const std::uint32_t p = grid.member[a];
-              for (std::uint32_t b = a + 1; b < grid.begin[c + 1]; ++b)
+    for (std::uint32_t c = 0; c + 1 < grid.begin.size(); ++c)
+      {
+        const std::vector<std::uint32_t> &others = grid.partners(c);
+        for (std::uint32_t a = grid.begin[c]; a < grid.begin[c + 1]; ++a)
+          {
+            const std::uint32_t p = grid.member[a];
+            for (std::uint32_t b = a + 1; b < grid.begin[c + 1]; ++b)
+              test(p, grid.member[b]);
+            for (const std::uint32_t other : others)
+              for (std::uint32_t b = grid.begin[other]; b < grid.begin[other + 1]; ++b)
                 test(p, grid.member[b]);
-              if (column + 1 < grid.nx)
-                for (std::uint32_t b = grid.begin[c + 1]; b < grid.begin[c + 2]; ++b)
-                  test(p, grid.member[b]);
-              if (row + 1 < grid.ny)
-                {
-                  const std::size_t up    = c + grid.nx;
-                  const std::size_t first = column > 0 ? up - 1 : up, last = column + 1 < grid.nx ? up + 1 : up;
-                  for (std::uint32_t b = grid.begin[first]; b < grid.begin[last + 1]; ++b)
-                    test(p, grid.member[b]);
-                }
-            }
-        }
+          }
+      }
     sort_pairs(candidates.discs, n);
 
-    const auto &segments = walls.segments();
+    const auto &segments = geometry.walls.segments();
     for (std::size_t k = 0; k < segments.size(); ++k)
       {
         const WallSegment &w     = segments[k];
-        const double       reach = r_max + skin, cell_reach = reach + 0.75 * grid.width;
+        const double       reach = r_max + skin, cell_reach = reach + 0.75 * std::max(grid.width_x, grid.width_y);
         const double       x_low = std::min(w.a[0], w.b[0]) - reach, x_high = std::max(w.a[0], w.b[0]) + reach;
         const double       y_low = std::min(w.a[1], w.b[1]) - reach, y_high = std::max(w.a[1], w.b[1]) + reach;
         for (int row = grid.row(y_low); row <= grid.row(y_high); ++row)
           for (int column = grid.column(x_low); column <= grid.column(x_high); ++column)
-            if (distance_to(w, grid.x0 + (column + 0.5) * grid.width, grid.y0 + (row + 0.5) * grid.width) < cell_reach)
+            if (distance_to(w, grid.x0 + (column + 0.5) * grid.width_x, grid.y0 + (row + 0.5) * grid.width_y) <
+                cell_reach)
               {
                 const std::size_t c = static_cast<std::size_t>(row) * grid.nx + column;
                 for (std::uint32_t a = grid.begin[c]; a < grid.begin[c + 1]; ++a)

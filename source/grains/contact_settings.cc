@@ -11,10 +11,26 @@ namespace alluvium::grains
     prm.add_parameter("Friction coefficient", friction, "Coulomb friction between grains [-].", Double(0.));
     prm.add_parameter(
       "Wall friction coefficient", wall_friction, "Coulomb friction between grains and walls [-].", Double(0.));
+    prm.add_parameter("Friction of single walls",
+                      single_friction,
+                      "Coulomb friction of walls for which it is another, as `name: value, ...` [-].");
+    prm.add_parameter(
+      "Rolling friction coefficient",
+      rolling_friction,
+      "Rolling friction of grains and of grains with walls [-]: a moment of up to this times the normal "
+      "force times the reduced radius r1 r2 / (r1 + r2), or the grain's radius at a wall, resists "
+      "relative rotation. A disc stays where it is on a slope of up to this.",
+      Double(0.));
+    prm.add_parameter("Rolling friction of single walls",
+                      single_rolling_friction,
+                      "Rolling friction of walls for which it is another, as `name: value, ...` [-].");
     prm.add_parameter("Restitution",
                       restitution,
                       "Newton's coefficient of restitution [-]: 0, an impact ends the approach; 1, it turns it around.",
                       Double(0., 1.));
+    prm.add_parameter("Restitution of single walls",
+                      single_restitution,
+                      "Restitution of walls for which it is another, as `name: value, ...` [-].");
     prm.add_parameter("Restitution threshold velocity",
                       threshold_velocity,
                       "Impacts slower than this do not bounce, so that grains come to rest [m/s].",

@@ -21,6 +21,12 @@ namespace alluvium::grains
         disc_j.y = j.y;
         disc_j.s = j.s;
       }
+    for (std::size_t k = 0; k < problem.rolling.size(); ++k)
+      {
+        RollingFriction &r = problem.rolling[k];
+        roll(r, problem.discs[problem.contacts[k].i], problem.discs[problem.contacts[k].j], r.impulse);
+        r.last = r.impulse;
+      }
     if (problem.communicator != nullptr)
       problem.communicator->update_ghosts(problem.discs);
   }
@@ -34,17 +40,25 @@ namespace alluvium::grains
     for (int attempt = 0; attempt < 2; ++attempt)
       {
         largest[0] = largest[1] = 0.;
+        const auto add          = [&](const double change, const double size) {
+          sums.change.add(change);
+          sums.size.add(size);
+          largest[0] = std::max(largest[0], change);
+          largest[1] = std::max(largest[1], size);
+        };
         for (const Contact &c : problem.contacts)
           if (problem.counts(c))
             {
               double rn, rt;
               CoulombLaw::solve(values(c), values(problem.discs[c.i]), values(problem.discs[c.j]), rn, rt);
-              const double change = (rn - c.rn) * (rn - c.rn) + (rt - c.rt) * (rt - c.rt);
-              const double size   = c.rn * c.rn + c.rt * c.rt;
-              sums.change.add(change);
-              sums.size.add(size);
-              largest[0] = std::max(largest[0], change);
-              largest[1] = std::max(largest[1], size);
+              add((rn - c.rn) * (rn - c.rn) + (rt - c.rt) * (rt - c.rt), c.rn * c.rn + c.rt * c.rt);
+            }
+        for (std::size_t k = 0; k < problem.rolling.size(); ++k)
+          if (const Contact &c = problem.contacts[k]; problem.counts(c))
+            {
+              const RollingFriction &r = problem.rolling[k];
+              const double change = solve_rolling(r, c, problem.discs[c.i], problem.discs[c.j], r.impulse) - r.impulse;
+              add(change * change, r.impulse * r.impulse);
             }
         if (problem.communicator != nullptr)
           {

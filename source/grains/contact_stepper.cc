@@ -1,5 +1,8 @@
+#include <alluvium/grains/cohesion.h>
 #include <alluvium/grains/contact_active_set.h>
 #include <alluvium/grains/contact_bodies.h>
+#include <alluvium/grains/contact_bonds.h>
+#include <alluvium/grains/contact_material.h>
 #include <alluvium/grains/contact_neighbours.h>
 #include <alluvium/grains/contact_search.h>
 #include <alluvium/grains/contact_solver.h>
@@ -24,7 +27,8 @@ namespace alluvium::grains
   public:
     ContactSettings             settings;
     PluginChoice<ContactSolver> choice;
-    WallGeometry                walls;
+    PluginChoice<Cohesion>      cohesion_choice;
+    ContactGeometry             geometry;
     ContactNeighbours           neighbours;
     Rest                        rest;
     std::vector<std::uint8_t>   touched;
@@ -46,10 +50,13 @@ namespace alluvium::grains
     ContactProblem      problem;
     ContactBodies       bodies;
     ContactActiveSet    active;
+    ContactBonds        bonds;
     std::vector<double> sub_px, sub_py, sub_ps; // impulses on the grains [N s/m]
 
     // Scratch of a step.
-    std::vector<double>                px, py; // impulses on the grains, summed over the sub-steps
+    ContactMaterials                   materials;
+    const Cohesion                    *cohesion = nullptr; // none
+    std::vector<double>                px, py;             // impulses on the grains, summed over the sub-steps
     std::vector<std::array<double, 2>> wall_impulse;
     double                             base_h = 0.; // length of an unhalved sub-step
     double                             d_min = 0., d_max = 0., mean_mass = 0., g = 0.;
@@ -63,7 +70,6 @@ namespace alluvium::grains
       return *own_solver;
     }
 
-    double         wall_speed() const; // of the fastest [m/s]
     void           set_scales(const GrainArrays &grains, std::array<double, 2> gravity);
     unsigned int   count_substeps(const GrainArrays &grains, const GrainLoads &loads, double dt) const;
     double         root_mean_square_speed() const; // at the start of the sub-step
@@ -73,15 +79,6 @@ namespace alluvium::grains
     void move(GrainArrays &grains, double h, ContactReport &report);
     void substep(GrainArrays &grains, const GrainLoads &loads, double h, unsigned int level, ContactReport &);
   };
-
-
-  double ContactStepper::Implementation::wall_speed() const
-  {
-    double speed = 0.;
-    for (const WallSegment &w : walls.segments())
-      speed = std::max(speed, std::hypot(w.velocity[0], w.velocity[1]));
-    return speed;
-  }
 
 
   double ContactStepper::Implementation::root_mean_square_speed() const
@@ -97,10 +94,12 @@ namespace alluvium::grains
   {
     const double   velocity_unit = g > 0. ? std::sqrt(g * d_min) : velocity_scale;
     ContactMargins margins;
-    margins.h        = h;
-    margins.base_h   = base_h;
-    margins.delta    = std::min(settings.dead_zone * base_h * velocity_unit, 1e-3 * d_min);
-    margins.push_out = settings.push_out * velocity_unit;
+    margins.h          = h;
+    margins.base_h     = base_h;
+    margins.delta      = std::min(settings.dead_zone * base_h * velocity_unit, 1e-3 * d_min);
+    margins.push_out   = settings.push_out * velocity_unit;
+    margins.correction = settings.correction;
+    margins.threshold  = settings.threshold_velocity;
     // The faster the grains, the more likely a solution closes a gap. Fewer rounds then.
     margins.nearness =
       std::max({2. * margins.delta, 2e-3 * d_min, std::min(h * root_mean_square_speed(), 0.1 * d_min)});
@@ -127,10 +126,10 @@ namespace alluvium::grains
     Outcome            outcome;
     for (bool keep = false;; keep = true)
       {
-        active.select(grains, bodies, walls, settings, margins, keep, neighbours.pairs);
+        active.select(grains, bodies, geometry, materials, margins, keep, neighbours.pairs);
         // A cold bed is not on the move, however many sweeps it takes.
-        tolerance.patience = !active.is_warm() ? settings.max_sweeps : patience;
-        active.build(neighbours.n_colours, bodies, walls, settings, problem);
+        tolerance.patience = active.is_warm() ? patience : settings.max_sweeps;
+        active.build(neighbours.n_colours, grains, bodies, geometry, materials, problem);
         problem.discs   = bodies.free;
         problem.n_discs = problem.n_owned_discs = bodies.n_discs();
         ContactSolution &solution               = outcome.solution;
@@ -151,11 +150,11 @@ namespace alluvium::grains
         if (reach > slack)
           {
             slack = 1.2 * reach;
-            neighbours.search(grains, walls, slack);
+            neighbours.search(grains, geometry, slack);
             active.restart_from_impulses(neighbours.pairs);
-            active.add_violated(grains, bodies, walls, problem.discs, h, neighbours.pairs);
+            active.add_violated(grains, bodies, geometry, problem.discs, h, neighbours.pairs);
           }
-        else if (!active.add_violated(grains, bodies, walls, problem.discs, h, neighbours.pairs))
+        else if (!active.add_violated(grains, bodies, geometry, problem.discs, h, neighbours.pairs))
           return outcome;
       }
   }
@@ -165,7 +164,8 @@ namespace alluvium::grains
     GrainArrays &grains, const GrainLoads &loads, const double h, const unsigned int level, ContactReport &report)
   {
     bodies.set(grains, loads, h, settings.rotation);
-    const double wall_speed = this->wall_speed();
+    bonds.reset(cohesion ? grains.n() : 0, cohesion ? geometry.walls.segments().size() : 0);
+    const double wall_speed = geometry.walls.largest_speed();
 
     // Scales: what gravity does in the sub-step; without gravity, what moves.
     const auto speeds         = largest_speeds(bodies.start, bodies.n_discs());
@@ -178,13 +178,17 @@ namespace alluvium::grains
     const ContactMargins margins = choose_margins(h, velocity_scale);
 
     neighbours.rescale(h);
-    const double reach = h * (speeds[0] + speeds[1] + wall_speed + 2. * g * h);
-    double       slack = neighbours.known(grains) ? neighbours.slack(grains) : -1.;
-    if (slack < margins.nearness + reach)
+    const double reach    = h * (speeds[0] + speeds[1] + wall_speed + 2. * g * h);
+    double       slack    = neighbours.known(grains) ? neighbours.slack(grains, geometry.periodicity) : -1.;
+    const double nearness = std::max(margins.nearness, cohesion ? cohesion->reach(0.5 * d_max) : 0.);
+    if (slack < nearness + reach)
       {
-        slack = std::max(settings.skin * d_max, 1.2 * reach + margins.nearness);
-        neighbours.search(grains, walls, slack);
+        slack = std::max(settings.skin * d_max + nearness - margins.nearness, 1.2 * reach + nearness);
+        neighbours.search(grains, geometry, slack);
       }
+
+    if (cohesion)
+      bonds.attract(grains, geometry, *cohesion, h, std::max(margins.delta, 1e-9 * d_min), neighbours.pairs, bodies);
 
     const Outcome outcome = solve(grains, margins, slack, wall_speed, report);
     if ((!outcome.solution.converged || outcome.too_far) && level < settings.max_halvings)
@@ -198,7 +202,9 @@ namespace alluvium::grains
       ++report.n_unconverged;
 
     move(grains, h, report);
-    walls.move(h);
+    if (cohesion)
+      ContactBonds::update(grains, geometry, *cohesion, neighbours.pairs);
+    geometry.walls.move(h);
     neighbours.walls_moved(h * wall_speed);
     ++report.n_substeps;
     report.residual     = std::max(report.residual, outcome.solution.residual);
@@ -227,6 +233,11 @@ namespace alluvium::grains
         sub_px[c.j] += ix;
         sub_py[c.j] += iy;
         sub_ps[c.j] -= c.rt;
+        if (!problem.rolling.empty())
+          {
+            sub_ps[c.i] -= problem.rolling[k].lever_i * problem.rolling[k].impulse;
+            sub_ps[c.j] += problem.rolling[k].lever_j * problem.rolling[k].impulse;
+          }
         touched[c.i]            = 1;
         const std::int64_t wall = active.wall_of(k);
         if (wall >= 0)
@@ -247,7 +258,22 @@ namespace alluvium::grains
         grains.y[k] += h * grains.vy[k];
         px[k] += sub_px[k];
         py[k] += sub_py[k];
+        for (unsigned int d = 0; geometry.periodicity.any() && d < 2; ++d)
+          {
+            double      &x = d == 0 ? grains.x[k] : grains.y[k], &x0 = d == 0 ? grains.x0[k] : grains.y0[k];
+            const double shift = geometry.periodicity.shift(x, d);
+            x += shift;
+            x0 += shift; // so that the displacement since t = 0 stays what it is
+          }
       }
+    for (std::size_t k = 0; k < bonds.on_grain.size(); ++k)
+      {
+        px[k] += bonds.on_grain[k][0];
+        py[k] += bonds.on_grain[k][1];
+      }
+    for (std::size_t k = 0; k < bonds.on_wall.size(); ++k)
+      for (unsigned int d = 0; d < 2; ++d)
+        wall_impulse[k][d] += bonds.on_wall[k][d];
   }
 
 
@@ -304,21 +330,23 @@ namespace alluvium::grains
     const std::size_t n = grains.n();
     if (loads.fx.size() != n || loads.fy.size() != n || loads.drag.size() != n)
       throw std::logic_error("ContactStepper::advance: the loads have another size than the grains.");
-    for (const WallSegment &w : walls.segments())
+    for (const WallSegment &w : geometry.walls.segments())
       report.wall_force[w.name] = {{0., 0.}};
     touched.assign(n, 0);
     if (n == 0 || !(dt > 0.))
       return report;
 
+    materials = make_materials(settings, geometry.walls.segments());
+    cohesion  = !cohesion_choice.name().empty() && cohesion_choice.get().acts() ? &cohesion_choice.get() : nullptr;
     set_scales(grains, gravity);
     rest.steps = settings.rest_steps;
     const Rest::Scales scales{dt, g, mean_mass * g, d_min};
-    if (wall_speed() == 0. && rest.holds(grains, loads, scales))
+    if (geometry.walls.largest_speed() == 0. && rest.holds(grains, loads, scales))
       return rest.stand_still(loads, grains, touched);
 
     px.assign(n, 0.);
     py.assign(n, 0.);
-    wall_impulse.assign(walls.segments().size(), {{0., 0.}});
+    wall_impulse.assign(geometry.walls.segments().size(), {{0., 0.}});
     const unsigned int steps = count_substeps(grains, loads, dt);
     base_h                   = dt / steps;
     for (unsigned int s = 0; s < steps; ++s)
@@ -331,11 +359,11 @@ namespace alluvium::grains
       }
     for (std::size_t k = 0; k < wall_impulse.size(); ++k)
       {
-        auto &force = report.wall_force[walls.segments()[k].name];
+        auto &force = report.wall_force[geometry.walls.segments()[k].name];
         force[0] += wall_impulse[k][0] / dt;
         force[1] += wall_impulse[k][1] / dt;
       }
-    active.measure_overlaps(grains, walls, report.mean_penetration, report.max_penetration);
+    active.measure_overlaps(grains, geometry, report.mean_penetration, report.max_penetration);
     rest.watch(grains, loads, scales, touched, report);
     return report;
   }
@@ -352,6 +380,8 @@ namespace alluvium::grains
     implementation->settings.add_parameters(prm);
     implementation->choice.add_parameters(
       prm, "Contact solver", default_solver, "How the contact problem of a sub-step is solved.");
+    implementation->cohesion_choice.add_parameters(
+      prm, "Cohesion", "none", "What attracts grains, and grains and walls.");
   }
 
   ContactSettings &ContactStepper::settings()
@@ -361,14 +391,21 @@ namespace alluvium::grains
 
   void ContactStepper::set_walls(std::vector<WallSegment> walls)
   {
-    implementation->walls.set(std::move(walls));
+    make_materials(settings(), walls);
+    implementation->geometry.walls.set(std::move(walls));
     implementation->neighbours.forget();
     implementation->rest.forget();
   }
 
   const std::vector<WallSegment> &ContactStepper::walls() const
   {
-    return implementation->walls.segments();
+    return implementation->geometry.walls.segments();
+  }
+
+  void ContactStepper::set_periodicity(const Periodicity &periodicity)
+  {
+    implementation->geometry.periodicity = periodicity;
+    implementation->neighbours.forget();
   }
 
   ContactReport ContactStepper::advance(GrainArrays                &grains,

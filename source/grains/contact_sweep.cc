@@ -148,6 +148,33 @@ namespace alluvium::grains
              : sweep_colour<packed, false, false, Law>(problem, colour, sums, last, beta);
     }
 
+    /** Rolling friction of a colour, after the rest of its contacts. */
+    template <bool momentum>
+    void roll_colour(ContactProblem &problem, const unsigned int colour, ContactMeasure::Sums &sums, const double beta)
+    {
+      for (std::size_t k = problem.colour_begin[colour]; k < problem.colour_begin[colour + 1]; ++k)
+        {
+          const Contact   &c = problem.contacts[k];
+          RollingFriction &r = problem.rolling[k];
+          Disc            &i = problem.discs[c.i], &j = problem.discs[c.j];
+          double           start = r.impulse;
+          if constexpr (momentum)
+            {
+              start += beta * (r.impulse - r.last);
+              r.last = r.impulse;
+            }
+          r.impulse           = solve_rolling(r, c, i, j, start);
+          const double change = r.impulse - start;
+          roll(r, i, j, change);
+          if (problem.counts(c))
+            {
+              sums.change.add(change * change);
+              sums.size.add(r.impulse * r.impulse);
+              sums.work.add(r.bias * r.impulse);
+            }
+        }
+    }
+
     using SweepColour = void(ContactProblem &, unsigned int, SweepOrder, ContactMeasure::Sums &, LastImpulse *, double);
 
     void coulomb_colour(ContactProblem       &problem,
@@ -190,6 +217,8 @@ namespace alluvium::grains
       {
         const unsigned int colour = order == SweepOrder::forward ? k : n - 1 - k;
         best_coulomb_colour(problem, colour, order, sums, last, beta);
+        if (!problem.rolling.empty())
+          last ? roll_colour<true>(problem, colour, sums, beta) : roll_colour<false>(problem, colour, sums, beta);
         if (problem.communicator != nullptr)
           problem.communicator->after_colour(problem.discs, colour);
       }

@@ -34,8 +34,10 @@ namespace alluvium::grains
         writer.put(entry.a);
         writer.put(entry.b);
         writer.put<std::uint8_t>(entry.wall);
+        writer.put<std::uint8_t>(entry.bonded);
         writer.put(entry.rn);
         writer.put(entry.rt);
+        writer.put(entry.rr);
       }
     write_checked_file(communicator, file_name, "grains", writer.bytes);
   }
@@ -61,11 +63,13 @@ namespace alluvium::grains
         for (std::uint64_t i = 0; i < n; ++i)
           {
             ContactArchive::Entry entry;
-            entry.a    = reader.get<GrainId>();
-            entry.b    = reader.get<GrainId>();
-            entry.wall = reader.get<std::uint8_t>() != 0;
-            entry.rn   = reader.get<double>();
-            entry.rt   = reader.get<double>();
+            entry.a      = reader.get<GrainId>();
+            entry.b      = reader.get<GrainId>();
+            entry.wall   = reader.get<std::uint8_t>() != 0;
+            entry.bonded = reader.get<std::uint8_t>() != 0;
+            entry.rn     = reader.get<double>();
+            entry.rt     = reader.get<double>();
+            entry.rr     = reader.get<double>();
             contacts.entries.push_back(entry);
           }
         check_user(same_length && reader.at_end(), "'" + file_name + "' is not as this program writes it.");

@@ -203,7 +203,27 @@ namespace alluvium::mesh
       open_to_grains,
       "Names of the boundaries that are no walls for the grains, separated by commas. A grain that leaves "
       "the domain stops the run, so this is for boundaries with other walls before them.");
+    prm.add_parameter("Periodic directions",
+                      periodic_directions,
+                      "Directions in which the rectangle repeats itself, for fluid and grains: what leaves it at one "
+                      "side comes in at the other. In x there are then no boundaries left and right, in y none bottom "
+                      "and top.",
+                      Patterns::MultipleSelection("x|y"));
     prm.leave_subsection();
+  }
+
+
+  template <int dim>
+  grains::Periodicity Domain<dim>::periodicity() const
+  {
+    grains::Periodicity result;
+    for (const auto &direction : Utilities::split_string_list(periodic_directions))
+      {
+        const unsigned int d = direction == "x" ? 0 : 1;
+        result.lower[d]      = lower_corner[d];
+        result.length[d]     = upper_corner[d] - lower_corner[d];
+      }
+    return result;
   }
 
 
@@ -231,6 +251,20 @@ namespace alluvium::mesh
       }
     else
       read_mesh_file(directory);
+
+    const grains::Periodicity box = periodicity();
+    check_user(!box.any() || is_rectangle(),
+               "Domain/Periodic directions: only a rectangle can be periodic, no mesh file.");
+    for (unsigned int d = 0; d < dim; ++d)
+      if (box.length[d] > 0.)
+        for (const std::string name : {d == 0 ? "left" : "bottom", d == 0 ? "right" : "top"})
+          {
+            ids.erase(name);
+            wall_segments.erase(std::remove_if(wall_segments.begin(),
+                                               wall_segments.end(),
+                                               [&](const auto &wall) { return wall.name == name; }),
+                                wall_segments.end());
+          }
 
     for (const auto &name : Utilities::split_string_list(open_to_grains))
       {

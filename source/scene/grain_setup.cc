@@ -159,8 +159,10 @@ namespace alluvium::scene
                        number(domain.lower()[1]) + ") to (" + number(domain.upper()[0]) + ", " +
                        number(domain.upper()[1]) + ") m.");
       }
-    grains::check_overlaps(
-      grains, walls, 2. * overlap_tolerance * *std::min_element(grains.radius.begin(), grains.radius.end()));
+    grains::check_overlaps(grains,
+                           walls,
+                           2. * overlap_tolerance * *std::min_element(grains.radius.begin(), grains.radius.end()),
+                           domain.periodicity());
     last_factor = find_radius_factor(grains, domain);
     for (std::size_t i = 0; i < n; ++i)
       {

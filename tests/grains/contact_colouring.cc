@@ -27,11 +27,11 @@ namespace
     return grains;
   }
 
-  WallGeometry floor()
+  ContactGeometry floor()
   {
-    WallGeometry walls;
-    walls.set({{{{-1., 0.}}, {{1., 0.}}, {{0., 0.}}, "floor"}});
-    return walls;
+    ContactGeometry geometry;
+    geometry.walls.set({{{{-1., 0.}}, {{1., 0.}}, {{0., 0.}}, "floor"}});
+    return geometry;
   }
 
   /** Colours by the ids of the pairs. */
@@ -102,7 +102,7 @@ TEST(ContactColouring, ManyNeighbours)
     }
   for (unsigned int k = 0; k <= n; ++k)
     grains.id[k] = k;
-  ContactCandidates pairs = find_candidates(grains, WallGeometry(), 0.15 * d);
+  ContactCandidates pairs = find_candidates(grains, ContactGeometry(), 0.15 * d);
   EXPECT_GE(colour_contacts(grains, pairs), n);
   expect_proper(grains, pairs);
 }

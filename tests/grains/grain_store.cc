@@ -240,7 +240,7 @@ namespace
     ContactArchive contacts;
     contacts.dt = 1e-4;
     for (unsigned int i = 0; i < 700; ++i)
-      contacts.entries.push_back({i, i % 3 ? i + 1 : ~1u, i % 3 == 0, i / 7., -i / 13.});
+      contacts.entries.push_back({i, i % 3 ? i + 1 : ~1u, i % 3 == 0, i % 2 == 0, i / 7., -i / 13., i / 17.});
     const auto name = file("grains.bin");
     save_grains(MPI_COMM_WORLD, name, grains, contacts);
 
@@ -253,7 +253,8 @@ namespace
     for (std::size_t i = 0; i < contacts.entries.size(); ++i)
       {
         const auto &a = contacts.entries[i], &b = read_contacts.entries[i];
-        EXPECT_TRUE(a.a == b.a && a.b == b.b && a.wall == b.wall && a.rn == b.rn && a.rt == b.rt);
+        EXPECT_TRUE(a.a == b.a && a.b == b.b && a.wall == b.wall && a.bonded == b.bonded && a.rn == b.rn &&
+                    a.rt == b.rt && a.rr == b.rr);
       }
 
     const auto complaint = [&] {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <alluvium/grains/contact_bodies.h>
+#include <alluvium/grains/contact_material.h>
 #include <alluvium/grains/contact_neighbours.h>
-#include <alluvium/grains/contact_settings.h>
 
 #include <cstdint>
 #include <vector>
@@ -12,11 +12,13 @@ namespace alluvium::grains
   /** The lengths and speeds that decide which pairs take part in a sub-step, and how overlaps open. */
   struct ContactMargins
   {
-    double h        = 0.; // length of the sub-step [s]
-    double base_h   = 0.; // and of an unhalved one
-    double delta    = 0.; // gaps and overlaps below this count as closed [m]
-    double nearness = 0.; // pairs this near take part, whether they approach or not [m]
-    double push_out = 0.; // overlaps open at most this fast [m/s]
+    double h          = 0.; // length of the sub-step [s]
+    double base_h     = 0.; // and of an unhalved one
+    double delta      = 0.; // gaps and overlaps below this count as closed [m]
+    double nearness   = 0.; // pairs this near take part, whether they approach or not [m]
+    double push_out   = 0.; // overlaps open at most this fast [m/s], and
+    double correction = 0.; // this part of them in one unhalved sub-step
+    double threshold  = 0.; // impacts slower than this do not bounce [m/s]
   };
 
   /**
@@ -27,13 +29,13 @@ namespace alluvium::grains
   {
   public:
     /** Choose them. With @p keep, those that took part before stay, whatever they do. */
-    void select(const GrainArrays     &grains,
-                const ContactBodies   &bodies,
-                const WallGeometry    &walls,
-                const ContactSettings &settings,
-                const ContactMargins  &margins,
-                bool                   keep,
-                ContactCandidates     &candidates);
+    void select(const GrainArrays      &grains,
+                const ContactBodies    &bodies,
+                const ContactGeometry  &geometry,
+                const ContactMaterials &materials,
+                const ContactMargins   &margins,
+                bool                    keep,
+                ContactCandidates      &candidates);
 
     /** After a new search: the pairs with an impulse take part, and no others. */
     void restart_from_impulses(const ContactCandidates &candidates);
@@ -44,17 +46,18 @@ namespace alluvium::grains
      */
     bool add_violated(const GrainArrays       &grains,
                       const ContactBodies     &bodies,
-                      const WallGeometry      &walls,
+                      const ContactGeometry   &geometry,
                       const std::vector<Disc> &velocity,
                       double                   h,
                       const ContactCandidates &candidates);
 
     /** Write the contacts of @p problem, warm impulses included, in the order of their pairs' @p n_colours colours. */
-    void build(unsigned int           n_colours,
-               const ContactBodies   &bodies,
-               const WallGeometry    &walls,
-               const ContactSettings &settings,
-               ContactProblem        &problem);
+    void build(unsigned int            n_colours,
+               const GrainArrays      &grains,
+               const ContactBodies    &bodies,
+               const ContactGeometry  &geometry,
+               const ContactMaterials &materials,
+               ContactProblem         &problem);
 
     /** Hand the impulses of the solved @p problem to the pairs. */
     void take_impulses(const ContactProblem &problem);
@@ -66,7 +69,8 @@ namespace alluvium::grains
     std::int64_t wall_of(const std::size_t k) const { return sorted[k].wall ? std::int64_t(sorted[k].pair->j) : -1; }
 
     /** Mean and largest overlap of the contacts, with the grains where they are now [m]. */
-    void measure_overlaps(const GrainArrays &grains, const WallGeometry &walls, double &mean, double &largest) const;
+    void
+    measure_overlaps(const GrainArrays &grains, const ContactGeometry &geometry, double &mean, double &largest) const;
 
   private:
     struct Active

@@ -6,15 +6,16 @@
 
 namespace alluvium::grains
 {
-  /** The contact impulses of the last sub-step: what makes the next one start warm. Part of a checkpoint. */
+  /** The contact impulses of the last sub-step: what makes the next one start warm, and the bonds of cohesion. Part of
+   * a checkpoint. */
   struct ContactArchive
   {
     /** Grain @p a and grain @p b, or wall segment ~b (bits flipped) where `wall`. */
     struct Entry
     {
       GrainId a, b;
-      bool    wall;
-      double  rn, rt; // [N s/m]
+      bool    wall, bonded;
+      double  rn, rt, rr; // [N s/m]
     };
     double             dt = 0.; // of that sub-step [s]
     std::vector<Entry> entries;

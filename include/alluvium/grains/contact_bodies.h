@@ -16,7 +16,8 @@ namespace alluvium::grains
     static constexpr std::size_t n_dummies = 16;
 
     std::vector<Disc> start; // velocities at the start of the sub-step; n_discs
-    std::vector<Disc> free;  // velocities at its end without contacts, and inverse masses; n_discs + n_dummies
+    // At its end without contacts, with inverse masses; n_discs + n_dummies.
+    std::vector<Disc> free;
 
     /** Set them for a sub-step of length @p h [s]. */
     void set(const GrainArrays &grains, const GrainLoads &loads, double h, bool rotation);

@@ -65,6 +65,25 @@ namespace alluvium::grains
     }
   };
 
+  /** The impulse of rolling friction @p r that solves it in contact @p c with all others held, from @p start. */
+  ALLUVIUM_INLINE double
+  solve_rolling(const RollingFriction &r, const Contact &c, const Disc &i, const Disc &j, const double start)
+  {
+    const double inverse = r.lever_i * r.lever_i * i.inverse_rotation + r.lever_j * r.lever_j * j.inverse_rotation;
+    const double limit   = r.coefficient * c.rn;
+    double       impulse = inverse > 0. ? start - (r.lever_j * j.s - r.lever_i * i.s + r.bias) / inverse : 0.;
+    raise_to(impulse, -limit);
+    lower_to(impulse, limit);
+    return impulse;
+  }
+
+  /** Add a rolling impulse @p p to the spins of the discs. */
+  ALLUVIUM_INLINE void roll(const RollingFriction &r, Disc &i, Disc &j, const double p)
+  {
+    i.s -= r.lever_i * i.inverse_rotation * p;
+    j.s += r.lever_j * j.inverse_rotation * p;
+  }
+
   /** Add an impulse (pn, pt) of contact @p c to the velocities of its discs. */
   template <typename T>
   ALLUVIUM_INLINE void push(const ContactValues<T> &c, DiscValues<T> &i, DiscValues<T> &j, const T &pn, const T &pt)

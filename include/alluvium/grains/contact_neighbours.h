@@ -18,7 +18,7 @@ namespace alluvium::grains
     unsigned int      n_colours = 0; // of the pairs
 
     /** Search anew all pairs with gaps below @p skin [m]; known pairs keep their impulses. */
-    void search(const GrainArrays &grains, const WallGeometry &walls, double skin);
+    void search(const GrainArrays &grains, const ContactGeometry &geometry, double skin);
 
     /** Let the next use search anew, whatever has moved. */
     void forget();
@@ -27,7 +27,7 @@ namespace alluvium::grains
     bool known(const GrainArrays &grains) const { return searched && searched_id == grains.id; }
 
     /** How far two grains, or a grain and a wall, may still approach each other before a pair is missed [m]. */
-    double slack(const GrainArrays &grains) const;
+    double slack(const GrainArrays &grains, const Periodicity &periodicity) const;
 
     /** Walls have moved by up to @p distance [m]. */
     void walls_moved(const double distance) { skin -= distance; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <alluvium/grains/grain_arrays.h>
+#include <alluvium/grains/periodicity.h>
 #include <alluvium/grains/wall.h>
 
 #include <string>
@@ -17,9 +18,14 @@ namespace alluvium::grains
   };
 
   /** All overlaps deeper than @p tolerance [m], the deepest first. */
-  std::vector<Overlap>
-  find_overlaps(const GrainArrays &grains, const std::vector<WallSegment> &walls, double tolerance);
+  std::vector<Overlap> find_overlaps(const GrainArrays              &grains,
+                                     const std::vector<WallSegment> &walls,
+                                     double                          tolerance,
+                                     const Periodicity              &periodicity = {});
 
   /** Throw a UserError that names the deepest overlap and counts them if any is deeper than @p tolerance [m]. */
-  void check_overlaps(const GrainArrays &grains, const std::vector<WallSegment> &walls, double tolerance);
+  void check_overlaps(const GrainArrays              &grains,
+                      const std::vector<WallSegment> &walls,
+                      double                          tolerance,
+                      const Periodicity              &periodicity = {});
 } // namespace alluvium::grains

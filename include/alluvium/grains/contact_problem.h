@@ -40,6 +40,25 @@ namespace alluvium::grains
   };
 
   /**
+   * Rolling friction of a contact, a third clamp: with the reduced radius R, the moment impulse R impulse acts on disc
+   * j and its opposite on i, against
+   *
+   *   v_r = lever_j s_j - lever_i s_i + bias                   lever = R / radius
+   *
+   * and |impulse| <= coefficient rn. Only for discs of different size does it see the tangential impulse, so that
+   * clamping one after the other converges to what solves all three.
+   */
+  struct RollingFriction
+  {
+    double impulse;     // [N s/m]
+    double last;        // of the iteration before; the accelerated solvers' own
+    double lever_i;     // [-]
+    double lever_j;     // [-]; 0 for a wall
+    double bias;        // R times the spin of a wall [m/s]
+    double coefficient; // [-]
+  };
+
+  /**
    * All contacts of one sub-step. Walls are bodies that nothing moves: their velocity sits in the biases, and a few
    * dummies behind the discs stand for them.
    *
@@ -52,11 +71,12 @@ namespace alluvium::grains
     std::vector<Disc>          discs; // in: free velocities; out: with the contact impulses. Owned, ghosts, dummies
     std::size_t                n_discs       = 0; // owned and ghosts
     std::size_t                n_owned_discs = 0;
-    std::vector<Contact>       contacts;          // in: warm impulses; out: the solution
-    std::vector<std::uint32_t> colour_begin{};    // contacts of colour c are [colour_begin[c], colour_begin[c + 1]) and
-                                                  // share no disc
-    double               impulse_scale = 1.;      // smallest impulse that matters [N s/m]: mean mass * g * dt, say
-    ContactCommunicator *communicator  = nullptr; // none on one rank
+    std::vector<Contact>       contacts;       // in: warm impulses; out: the solution
+    std::vector<std::uint32_t> colour_begin{}; // contacts of colour c are [colour_begin[c], colour_begin[c + 1]) and
+                                               // share no disc
+    std::vector<RollingFriction> rolling{};    // of every contact, or none
+    double                       impulse_scale = 1.; // smallest impulse that matters [N s/m]: mean mass * g * dt, say
+    ContactCommunicator         *communicator  = nullptr; // none on one rank
 
     std::size_t n_colours() const { return colour_begin.empty() ? 0 : colour_begin.size() - 1; }
 

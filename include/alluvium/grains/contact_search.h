@@ -1,6 +1,7 @@
 #pragma once
 
 #include <alluvium/grains/grain_arrays.h>
+#include <alluvium/grains/periodicity.h>
 #include <alluvium/grains/wall.h>
 
 #include <array>
@@ -14,15 +15,19 @@ namespace alluvium::grains
   struct ContactPair
   {
     std::uint32_t i, j;
-    std::uint32_t colour = 0; // pairs of one colour share no grain; see colour_contacts()
-    double        rn = 0., rt = 0.;
+    std::uint32_t colour = 0;                // pairs of one colour share no grain; see colour_contacts()
+    bool          bonded = false;            // by cohesion: they touch, or did and have not parted for good
+    double        rn = 0., rt = 0., rr = 0.; // normal, tangential, and of rolling friction over the reduced radius
   };
 
-  /** Where a disc is nearest to something: unit normal from the disc towards it, and the gap [m], negative in overlap.
+  /**
+   * Where a disc is nearest to something: unit normal from the disc towards it, the gap [m], negative in overlap, and
+   * for a wall its velocity there [m/s].
    */
   struct ContactPoint
   {
     double nx, ny, gap;
+    double vx = 0., vy = 0.;
   };
 
   /**
@@ -36,10 +41,13 @@ namespace alluvium::grains
     const std::vector<WallSegment> &segments() const { return walls; }
 
     /**
-     * Move the walls on by @p dt [s]: by the normal part of their velocity only. The tangential part is that of a belt,
-     * it drags grains along and leaves the wall where it is.
+     * Move the walls on by @p dt [s]. A wall that does not rotate moves by the normal part of its velocity only: the
+     * tangential part is that of a belt, which drags grains along and leaves the wall where it is.
      */
     void move(double dt);
+
+    /** The largest speed of any wall [m/s]. */
+    double largest_speed() const;
 
     /** The contact of a disc at (x, y) with radius r and segment @p k; false if another segment owns it. */
     bool touch(std::size_t k, double x, double y, double r, ContactPoint &point) const;
@@ -52,6 +60,16 @@ namespace alluvium::grains
     void find_shared_ends();
   };
 
+  /** What the grains are in: walls, and perhaps a box that repeats itself. */
+  struct ContactGeometry
+  {
+    WallGeometry walls;
+    Periodicity  periodicity;
+  };
+
+  /** The contact of grains @p i and @p j, or of their nearest images; the normal points from i to j. */
+  ContactPoint touch(const GrainArrays &grains, const Periodicity &periodicity, std::uint32_t i, std::uint32_t j);
+
   /** All pairs that may touch, found with a uniform cell grid. Where the grains are sorted by id, so are the pairs. */
   struct ContactCandidates
   {
@@ -60,8 +78,9 @@ namespace alluvium::grains
 
   /**
    * Find all pairs of grains, and of grains and walls, with gaps below @p skin [m]. Cells are as wide as the largest
-   * grain plus the skin, so a grain's partners are in its own cell and the eight around it. Throws std::runtime_error
-   * if a grain's position is not finite.
+   * grain plus the skin, so a grain's partners are in its own cell and the eight around it. In a periodic direction the
+   * grains must lie in the box, and the nearest image counts. Throws std::runtime_error if a grain's position is not
+   * finite, and UserError if a periodic box is so narrow that a grain could touch two images of another.
    */
-  ContactCandidates find_candidates(const GrainArrays &grains, const WallGeometry &walls, double skin);
+  ContactCandidates find_candidates(const GrainArrays &grains, const ContactGeometry &geometry, double skin);
 } // namespace alluvium::grains

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <map>
+#include <string>
+
 namespace dealii
 {
   class ParameterHandler;
@@ -12,6 +15,7 @@ namespace alluvium::grains
   {
     double       friction            = 0.4;  // between grains
     double       wall_friction       = 0.4;  // between grains and walls
+    double       rolling_friction    = 0.;   // between grains, and with walls
     double       restitution         = 0.;   // Newton's
     double       threshold_velocity  = 0.01; // [m/s] slower impacts do not bounce
     bool         rotation            = true;
@@ -28,6 +32,8 @@ namespace alluvium::grains
     double       push_out            = 0.1;  // times sqrt(g d): and how fast at most
     unsigned int rest_steps          = 10;   // without change before grains stand still; see Rest
     double       skin                = 0.15; // of the largest diameter
+
+    std::map<std::string, double> single_friction, single_rolling_friction, single_restitution; // of walls, by name
 
     /** Declare them in the current section of @p prm. */
     void add_parameters(dealii::ParameterHandler &prm);

@@ -4,6 +4,7 @@
 #include <alluvium/grains/contact_report.h>
 #include <alluvium/grains/contact_settings.h>
 #include <alluvium/grains/grain_arrays.h>
+#include <alluvium/grains/periodicity.h>
 #include <alluvium/grains/wall.h>
 
 #include <array>
@@ -41,8 +42,12 @@ namespace alluvium::grains
 
     ContactSettings &settings();
 
+    /** Throws UserError if the settings name a wall that is not among them. */
     void                            set_walls(std::vector<WallSegment> walls);
     const std::vector<WallSegment> &walls() const; // where they are now, if they move
+
+    /** Let the box repeat itself: grains that leave it come in again at the other side, with x0 and y0 moved along. */
+    void set_periodicity(const Periodicity &periodicity);
 
     /**
      * Advance positions, velocities and spins of @p grains by @p dt [s] under @p loads and contacts, and set their mean

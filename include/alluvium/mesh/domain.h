@@ -1,5 +1,6 @@
 #pragma once
 
+#include <alluvium/grains/periodicity.h>
 #include <alluvium/grains/wall.h>
 
 #include <deal.II/base/point.h>
@@ -71,6 +72,9 @@ namespace alluvium::mesh
      */
     const std::vector<grains::WallSegment> &walls() const { return wall_segments; }
 
+    /** The directions in which the rectangle repeats itself; its sides there are neither boundaries nor walls. */
+    grains::Periodicity periodicity() const;
+
     /** Throws UserError if @p triangulation has fewer cells than ranks. Collective. */
     static void check_partition(const dealii::Triangulation<dim, dim> &triangulation);
 
@@ -78,7 +82,7 @@ namespace alluvium::mesh
     void read_mesh_file(const std::string &directory);
 
     dealii::Point<dim> lower_corner, upper_corner;
-    std::string        mesh_file, open_to_grains;
+    std::string        mesh_file, open_to_grains, periodic_directions;
     double             coarse_size = 0.;
 
     MPI_Comm                                          communicator;
