@@ -137,6 +137,30 @@ namespace alluvium::grains
     find_shared_ends();
   }
 
+  std::vector<double> WallGeometry::positions() const
+  {
+    std::vector<double> result;
+    if (moving)
+      for (const WallSegment &w : walls)
+        result.insert(result.end(), {w.a[0], w.a[1], w.b[0], w.b[1], w.centre[0], w.centre[1]});
+    return result;
+  }
+
+  void WallGeometry::place(const std::vector<double> &positions)
+  {
+    if (positions.empty())
+      return;
+    check_user(positions.size() == 6 * walls.size(), "The checkpoint is of a scene with other walls.");
+    for (std::size_t k = 0; k < walls.size(); ++k)
+      {
+        const double *const p = &positions[6 * k];
+        walls[k].a            = {{p[0], p[1]}};
+        walls[k].b            = {{p[2], p[3]}};
+        walls[k].centre       = {{p[4], p[5]}};
+      }
+    find_shared_ends();
+  }
+
   double WallGeometry::largest_speed() const
   {
     double speed = 0.;
@@ -231,6 +255,16 @@ namespace alluvium::grains
     point.vx     = v[0];
     point.vy     = v[1];
     return true;
+  }
+
+  void wrap_into_box(GrainArrays &g, const Periodicity &periodicity)
+  {
+    if (periodicity.any())
+      for (std::size_t k = 0; k < g.n(); ++k)
+        {
+          periodicity.wrap(g.x[k], g.x0[k], 0);
+          periodicity.wrap(g.y[k], g.y0[k], 1);
+        }
   }
 
   ContactPoint touch(const GrainArrays &g, const Periodicity &periodicity, const std::uint32_t i, const std::uint32_t j)

@@ -8,6 +8,7 @@
 #include <alluvium/grains/contact_solver.h>
 #include <alluvium/grains/contact_stepper.h>
 #include <alluvium/grains/rest.h>
+#include <alluvium/grains/soft_spheres.h>
 #include <alluvium/utilities/plugin.h>
 
 #include <algorithm>
@@ -26,6 +27,8 @@ namespace alluvium::grains
   {
   public:
     ContactSettings             settings;
+    std::string                 model = "non-smooth";
+    SoftSpheres                 soft_spheres;
     PluginChoice<ContactSolver> choice;
     PluginChoice<Cohesion>      cohesion_choice;
     ContactGeometry             geometry;
@@ -258,14 +261,8 @@ namespace alluvium::grains
         grains.y[k] += h * grains.vy[k];
         px[k] += sub_px[k];
         py[k] += sub_py[k];
-        for (unsigned int d = 0; geometry.periodicity.any() && d < 2; ++d)
-          {
-            double      &x = d == 0 ? grains.x[k] : grains.y[k], &x0 = d == 0 ? grains.x0[k] : grains.y0[k];
-            const double shift = geometry.periodicity.shift(x, d);
-            x += shift;
-            x0 += shift; // so that the displacement since t = 0 stays what it is
-          }
       }
+    wrap_into_box(grains, geometry.periodicity);
     for (std::size_t k = 0; k < bonds.on_grain.size(); ++k)
       {
         px[k] += bonds.on_grain[k][0];
@@ -339,6 +336,13 @@ namespace alluvium::grains
     materials = make_materials(settings, geometry.walls.segments());
     cohesion  = !cohesion_choice.name().empty() && cohesion_choice.get().acts() ? &cohesion_choice.get() : nullptr;
     set_scales(grains, gravity);
+    if (model == "soft-sphere")
+      {
+        check_user(!materials.rolls && !cohesion,
+                   "Contacts/Contact model: soft spheres know neither rolling friction nor cohesion.");
+        return soft_spheres.advance(
+          grains, loads, dt, materials, settings.rotation, settings.skin * d_max, geometry, neighbours, touched);
+      }
     rest.steps = settings.rest_steps;
     const Rest::Scales scales{dt, g, mean_mass * g, d_min};
     if (geometry.walls.largest_speed() == 0. && rest.holds(grains, loads, scales))
@@ -378,6 +382,13 @@ namespace alluvium::grains
   void ContactStepper::add_parameters(dealii::ParameterHandler &prm)
   {
     implementation->settings.add_parameters(prm);
+    prm.add_parameter(
+      "Contact model",
+      implementation->model,
+      "`non-smooth`: impulses that keep grains apart, with any time step; `soft-sphere`: springs between "
+      "grains that overlap, with as many sub-steps as their stiffness needs, for comparison.",
+      dealii::Patterns::Selection("non-smooth|soft-sphere"));
+    implementation->soft_spheres.add_parameters(prm);
     implementation->choice.add_parameters(
       prm, "Contact solver", default_solver, "How the contact problem of a sub-step is solved.");
     implementation->cohesion_choice.add_parameters(
@@ -429,11 +440,14 @@ namespace alluvium::grains
 
   ContactArchive ContactStepper::archive() const
   {
-    return implementation->neighbours.archive();
+    ContactArchive result = implementation->neighbours.archive();
+    result.wall_positions = implementation->geometry.walls.positions();
+    return result;
   }
 
   void ContactStepper::set_archive(ContactArchive archive)
   {
+    implementation->geometry.walls.place(archive.wall_positions);
     implementation->neighbours.set_archive(std::move(archive));
     implementation->rest.forget();
   }

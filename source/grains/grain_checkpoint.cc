@@ -39,6 +39,7 @@ namespace alluvium::grains
         writer.put(entry.rt);
         writer.put(entry.rr);
       }
+    writer.put(contacts.wall_positions);
     write_checked_file(communicator, file_name, "grains", writer.bytes);
   }
 
@@ -72,6 +73,7 @@ namespace alluvium::grains
             entry.rr     = reader.get<double>();
             contacts.entries.push_back(entry);
           }
+        contacts.wall_positions = reader.get_vector<double>();
         check_user(same_length && reader.at_end(), "'" + file_name + "' is not as this program writes it.");
       }
     catch (const std::runtime_error &)

@@ -43,6 +43,33 @@ namespace alluvium::scene
       check_user(error.empty(), error);
       return result;
     }
+
+    /** Read numbers separated by commas; false if they are none. */
+    bool read_numbers(const std::string &text, std::vector<double> &numbers)
+    {
+      for (const std::string &item : Utilities::split_string_list(text, ','))
+        try
+          {
+            std::size_t length = 0;
+            numbers.push_back(std::stod(item, &length));
+            if (length != item.size() || !std::isfinite(numbers.back()))
+              return false;
+          }
+        catch (const std::exception &)
+          {
+            return false;
+          }
+      return true;
+    }
+
+    /** Whether walls of this name move along themselves only. */
+    bool
+    is_belt(const std::vector<grains::WallSegment> &walls, const std::string &name, const std::vector<double> &motion)
+    {
+      return motion.size() == 2 && std::all_of(walls.begin(), walls.end(), [&](const grains::WallSegment &w) {
+               return w.name != name || (w.b[0] - w.a[0]) * motion[1] == (w.b[1] - w.a[1]) * motion[0];
+             });
+    }
   } // namespace
 
 
@@ -77,39 +104,84 @@ namespace alluvium::scene
                       "diameter; more is an "
                       "error.",
                       Patterns::Double(0.));
+    prm.add_parameter("Extra walls",
+                      extra_walls,
+                      "Walls inside the domain that only the grains see, as `x1, y1 -> x2, y2; ...` [m], or with names "
+                      "as `name: x1, y1 -> x2, y2; ...`; several may share a name.");
     prm.add_parameter(
-      "Extra walls", extra_walls, "Walls inside the domain that only the grains see, as `x1, y1 -> x2, y2; ...` [m].");
+      "Motion of walls",
+      wall_motion,
+      "Walls that move, by name, as `name: vx, vy; ...` [m/s], or `name: vx, vy, spin, x, y; ...` for one "
+      "that turns at `spin` [rad/s], anticlockwise, about the point (x, y) [m]. A wall that does not turn "
+      "moves by the part of its velocity across it; the part along it is that of a belt. The fluid sees "
+      "nothing of this.");
     prm.leave_subsection();
   }
 
 
   std::vector<grains::WallSegment> GrainSetup::walls(const mesh::Domain<2> &domain) const
   {
-    std::vector<grains::WallSegment> result = domain.walls();
-    unsigned int                     n      = 0;
+    std::vector<grains::WallSegment> extra;
     for (const std::string &item : Utilities::split_string_list(extra_walls, ';'))
       {
-        const auto          arrow = item.find("->");
-        std::vector<double> x;
-        bool                good = arrow != std::string::npos;
-        if (good)
-          for (const std::string &end : {item.substr(0, arrow), item.substr(arrow + 2)})
-            for (const std::string &c : Utilities::split_string_list(end, ','))
-              try
-                {
-                  std::size_t length = 0;
-                  x.push_back(std::stod(c, &length));
-                  good = good && length == c.size() && std::isfinite(x.back());
-                }
-              catch (const std::exception &)
-                {
-                  good = false;
-                }
-        check_user(good && x.size() == 4 && (x[0] != x[2] || x[1] != x[3]),
-                   "Grains/Extra walls: expected `x1, y1 -> x2, y2; ...` in metres, got '" + item + "'.");
-        result.push_back({{{x[0], x[1]}}, {{x[2], x[3]}}, {{0., 0.}}, "extra wall " + std::to_string(++n)});
+        const auto          colon = item.find(':');
+        const std::string   ends  = colon == std::string::npos ? item : item.substr(colon + 1);
+        const auto          arrow = ends.find("->");
+        std::vector<double> a, b;
+        check_user(
+          arrow != std::string::npos && read_numbers(ends.substr(0, arrow), a) &&
+            read_numbers(ends.substr(arrow + 2), b) && a.size() == 2 && b.size() == 2 && a != b,
+          "Grains/Extra walls: expected `x1, y1 -> x2, y2; ...` or `name: x1, y1 -> x2, y2; ...` in metres, got '" +
+            item + "'.");
+        extra.push_back({{{a[0], a[1]}},
+                         {{b[0], b[1]}},
+                         {{0., 0.}},
+                         colon == std::string::npos ? "extra wall " + std::to_string(extra.size() + 1)
+                                                    : Utilities::trim(item.substr(0, colon))});
       }
+    // Positions are kept in the box: its own walls end where it does, only what stands in it shows again beside it.
+    std::vector<grains::WallSegment> result = domain.walls();
+    for (const auto &wall : grains::with_images(extra, domain.periodicity()))
+      result.push_back(wall);
+    move_walls(result, domain.periodicity());
     return result;
+  }
+
+
+  void GrainSetup::move_walls(std::vector<grains::WallSegment> &walls, const grains::Periodicity &periodicity) const
+  {
+    for (const std::string &item : Utilities::split_string_list(wall_motion, ';'))
+      {
+        const auto          colon = item.find(':');
+        std::vector<double> x;
+        check_user(colon != std::string::npos && read_numbers(item.substr(colon + 1), x) &&
+                     (x.size() == 2 || x.size() == 5),
+                   "Grains/Motion of walls: expected `name: vx, vy; ...` or `name: vx, vy, spin, x, y; ...`, got '" +
+                     item + "'.");
+        const std::string name = Utilities::trim(item.substr(0, colon));
+        check_user(!periodicity.any() ||
+                     (x.size() == 2 && (x[0] == 0. || periodicity.length[0] == 0.) &&
+                      (x[1] == 0. || periodicity.length[1] == 0.)) ||
+                     is_belt(walls, name, x),
+                   "Grains/Motion of walls: '" + name + "' would leave a domain that is periodic; belts do not.");
+        std::string known;
+        bool        found = false;
+        for (auto &wall : walls)
+          {
+            if (known.find("'" + wall.name + "'") == std::string::npos)
+              known += (known.empty() ? "'" : ", '") + wall.name + "'";
+            if (wall.name != name)
+              continue;
+            found         = true;
+            wall.velocity = {{x[0], x[1]}};
+            if (x.size() == 5)
+              {
+                wall.spin   = x[2];
+                wall.centre = {{x[3], x[4]}};
+              }
+          }
+        check_user(found, "Grains/Motion of walls: there is no wall '" + name + "'. The walls are " + known + ".");
+      }
   }
 
 

@@ -238,7 +238,8 @@ namespace
   {
     const auto     grains = make_grains(500);
     ContactArchive contacts;
-    contacts.dt = 1e-4;
+    contacts.dt             = 1e-4;
+    contacts.wall_positions = {0.1, 0.2, 0.3, 0.4, 0.5, 1. / 3.};
     for (unsigned int i = 0; i < 700; ++i)
       contacts.entries.push_back({i, i % 3 ? i + 1 : ~1u, i % 3 == 0, i % 2 == 0, i / 7., -i / 13., i / 17.});
     const auto name = file("grains.bin");
@@ -249,6 +250,7 @@ namespace
     load_grains(MPI_COMM_WORLD, name, read, read_contacts);
     expect_equal(read, grains);
     EXPECT_EQ(read_contacts.dt, contacts.dt);
+    EXPECT_EQ(read_contacts.wall_positions, contacts.wall_positions);
     ASSERT_EQ(read_contacts.entries.size(), contacts.entries.size());
     for (std::size_t i = 0; i < contacts.entries.size(); ++i)
       {

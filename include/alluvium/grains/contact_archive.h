@@ -15,9 +15,12 @@ namespace alluvium::grains
     {
       GrainId a, b;
       bool    wall, bonded;
-      double  rn, rt, rr; // [N s/m]
+      double  rn, rt, rr; // [N s/m]; of SoftSpheres, what they keep there
     };
     double             dt = 0.; // of that sub-step [s]
     std::vector<Entry> entries;
+
+    /** Where walls that move have got to, a.x a.y b.x b.y and the centre, one after the other; empty if none moves. */
+    std::vector<double> wall_positions;
   };
 } // namespace alluvium::grains

@@ -46,6 +46,10 @@ namespace alluvium::grains
      */
     void move(double dt);
 
+    /** Where the walls are, as in ContactArchive; and to put them there. */
+    std::vector<double> positions() const;
+    void                place(const std::vector<double> &positions);
+
     /** The largest speed of any wall [m/s]. */
     double largest_speed() const;
 
@@ -66,6 +70,9 @@ namespace alluvium::grains
     WallGeometry walls;
     Periodicity  periodicity;
   };
+
+  /** Bring all grains into a periodic box. Their displacement x - x0 since t = 0 stays what it is. */
+  void wrap_into_box(GrainArrays &grains, const Periodicity &periodicity);
 
   /** The contact of grains @p i and @p j, or of their nearest images; the normal points from i to j. */
   ContactPoint touch(const GrainArrays &grains, const Periodicity &periodicity, std::uint32_t i, std::uint32_t j);

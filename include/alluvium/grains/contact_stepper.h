@@ -28,6 +28,8 @@ namespace alluvium::grains
    * where the contact impulses P obey v_n + gap / h >= 0, Coulomb friction and Newton's restitution at the velocity
    * level. A grain's spin answers to its true inertia m r^2 / 2. A grain of infinite mass keeps its velocity.
    *
+   * With `Contact model = soft-sphere`, SoftSpheres does all this instead.
+   *
    * Runs on replicated arrays and communicates nothing: the same input gives the same bits. When the last contact
    * search was decides in which order contacts are solved, which shows within the tolerance.
    */

@@ -20,12 +20,14 @@ namespace alluvium::grains
       to_nearest(dy, length[1]);
     }
 
-    /** By how much to move coordinate @p x in direction @p d so that it lies in the box [m]. */
-    double shift(const double x, const unsigned int d) const
+    /** Move coordinate @p x in direction @p d into the box, and @p x0 by as much. */
+    void wrap(double &x, double &x0, const unsigned int d) const
     {
       if (!(length[d] > 0.))
-        return 0.;
-      return -length[d] * std::floor((x - lower[d]) / length[d]);
+        return;
+      const double shift = -length[d] * std::floor((x - lower[d]) / length[d]);
+      x += shift;
+      x0 += shift;
     }
 
   private:

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <alluvium/grains/periodicity.h>
+
 #include <array>
 #include <string>
 #include <vector>
@@ -21,4 +23,7 @@ namespace alluvium::grains
       return {{velocity[0] - spin * (y - centre[1]), velocity[1] + spin * (x - centre[0])}};
     }
   };
+
+  /** @p walls and their images beside a periodic box, under the same names: what a grain near its side may touch. */
+  std::vector<WallSegment> with_images(const std::vector<WallSegment> &walls, const Periodicity &periodicity);
 } // namespace alluvium::grains

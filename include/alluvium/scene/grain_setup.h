@@ -16,7 +16,10 @@ namespace alluvium::scene
   public:
     void add_parameters(dealii::ParameterHandler &prm);
 
-    /** Walls of the domain plus the extra ones. Throws UserError for a wall that cannot be read. */
+    /**
+     * Walls of the domain plus the extra ones, with their images if the domain is periodic, and how they move. Throws
+     * UserError for a wall or a motion that cannot be read.
+     */
     std::vector<grains::WallSegment> walls(const mesh::Domain<2> &domain) const;
 
     /**
@@ -34,11 +37,12 @@ namespace alluvium::scene
     double radius_factor() const { return last_factor; }
 
   private:
+    void   move_walls(std::vector<grains::WallSegment> &walls, const grains::Periodicity &periodicity) const;
     double find_radius_factor(const grains::GrainArrays &grains, const mesh::Domain<2> &domain) const;
 
     PluginChoice<grains::Deposit> deposit;
     double                        density = 2650., factor = 1., packing = 0., overlap_tolerance = 0.01;
-    std::string                   mass_follows = "contact radius", extra_walls;
+    std::string                   mass_follows = "contact radius", extra_walls, wall_motion;
     bool                          fixed_grains = false;
     mutable double                last_factor  = 1.;
   };

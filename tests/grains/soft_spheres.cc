@@ -1,0 +1,129 @@
+// Soft spheres against exact answers.
+#include <alluvium/utilities/user_error.h>
+
+#include <gtest/gtest.h>
+
+#include "contact_scene.h"
+
+using namespace alluvium;
+using namespace contact_scene;
+
+namespace
+{
+  std::string soft(const double stiffness, const double restitution, const std::string &more = "")
+  {
+    return "set Contact model = soft-sphere\n" + more +
+           "subsection Soft spheres\n set Stiffness = " + std::to_string(stiffness) +
+           "\n set Restitution = " + std::to_string(restitution) + "\nend";
+  }
+} // namespace
+
+// Head on and against a wall, the speed after is e times the speed before.
+TEST(SoftSpheres, Restitution)
+{
+  for (const double e : {0.3, 0.8, 1.})
+    {
+      Scene s;
+      s.set(soft(1e5, e) + "\nsubsection Soft spheres\n set Steps per collision = 1000\nend");
+      s.gy = 0.;
+      s.stepper.set_walls({{{{-1., 0.}}, {{1., 0.}}, {{0., 0.}}, "floor"}});
+      s.add(0., 0.7 * d, 0., -0.1);
+      s.add(0., 10. * d, 0.1);
+      s.add(1.5 * d, 10. * d, -0.1, 0., 0.5 * r);
+      const double m1 = s.grains.mass[1], m2 = s.grains.mass[2], momentum = 0.1 * (m1 - m2);
+      s.step(1e-4, 100);
+      EXPECT_NEAR(s.grains.vy[0], 0.1 * e, 3e-3 * 0.1) << e;
+      EXPECT_NEAR(s.grains.vx[2] - s.grains.vx[1], 0.2 * e, 3e-3 * 0.2) << e;
+      EXPECT_NEAR(m1 * s.grains.vx[1] + m2 * s.grains.vx[2], momentum, 1e-12 * m1);
+    }
+}
+
+// The overlap at the foot of a stack is n m g / k, and the floor carries the weight.
+TEST(SoftSpheres, Stack)
+{
+  const int n = 5;
+  Scene     s;
+  s.set(soft(1e5, 0.3));
+  s.floor();
+  for (int k = 0; k < n; ++k)
+    s.add(0., r + k * d);
+  s.step(1e-3, 400);
+  const double mg = s.grains.mass[0] * g;
+  EXPECT_NEAR(s.report.wall_force["floor"][1] / (-n * mg), 1., 1e-6);
+  EXPECT_NEAR((r - s.grains.y[0]) / (n * mg / 1e5), 1., 1e-6);
+  EXPECT_NEAR(s.report.max_penetration / (n * mg / 1e5), 1., 1e-6);
+  for (int k = 0; k < n; ++k)
+    EXPECT_NEAR(s.grains.fcy[k] / mg, 1., 1e-6);
+  EXPECT_EQ(s.report.n_contacts, static_cast<unsigned int>(n));
+}
+
+// 2/3 g sin a while it rolls, g (sin a - mu cos a) when it slips.
+TEST(SoftSpheres, DiscOnIncline)
+{
+  for (const double degrees : {20., 60.})
+    {
+      Scene        s;
+      const double a = degrees * M_PI / 180., mu = 0.4;
+      s.set(soft(1e6, 0.2));
+      s.gx = g * std::sin(a);
+      s.gy = -g * std::cos(a);
+      s.floor();
+      s.add(0., r);
+      s.step(1e-3, 20); // let it settle on its spring
+      const double before = s.grains.vx[0];
+      s.step(1e-3, 50);
+      const bool   rolls    = std::tan(a) < 3. * mu;
+      const double expected = (rolls ? 2. / 3. * std::sin(a) : std::sin(a) - mu * std::cos(a)) * g * 5e-2;
+      EXPECT_NEAR((s.grains.vx[0] - before) / expected, 1., 2e-3) << degrees;
+    }
+}
+
+// A block below the angle of friction hangs on its tangential spring, also over a restart.
+TEST(SoftSpheres, SpringsSurviveARestart)
+{
+  double     springs[2];
+  const auto run = [&](const bool restart) {
+    Scene first, second;
+    for (Scene *s : {&first, &second})
+      {
+        s->set(soft(1e5, 0.3, "set Grains rotate = false\n"));
+        s->gx = 0.3 * g;
+        s->floor();
+      }
+    first.add(0., r);
+    first.step(1e-3, 100);
+    Scene &s = restart ? second : first;
+    if (restart)
+      {
+        second.grains = first.grains;
+        second.stepper.set_archive(first.stepper.archive());
+      }
+    s.step(1e-3, 100);
+    springs[restart] = s.stepper.archive().entries.at(0).rt;
+    return s.grains;
+  };
+  const GrainArrays whole = run(false), restarted = run(true);
+  EXPECT_EQ(whole.x[0], restarted.x[0]);
+  EXPECT_EQ(whole.vx[0], restarted.vx[0]);
+  EXPECT_LT(std::abs(whole.vx[0]), 1e-9);
+  EXPECT_EQ(springs[0], springs[1]);
+  EXPECT_NEAR(std::abs(springs[0]) * 2. / 7. * 1e5 / (0.3 * whole.mass[0] * g), 1., 1e-5);
+}
+
+TEST(SoftSpheres, DragIsImplicit)
+{
+  Scene s;
+  s.set(soft(1e5, 0.5));
+  s.add(0., d, 0., 0.);
+  s.loads.drag = {100. * s.grains.mass[0]};
+  s.step(1e-3, 200);
+  EXPECT_NEAR(s.grains.vy[0] / (-g / 100.), 1., 1e-6); // its terminal velocity
+}
+
+TEST(SoftSpheres, UnknownLawsAreRefused)
+{
+  Scene s;
+  s.set(soft(1e5, 0.5, "set Rolling friction coefficient = 0.1\n"));
+  s.add(0., 0.);
+  EXPECT_THROW(s.step(1e-4), UserError);
+}
