@@ -5,15 +5,15 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 
-namespace contact_scene
+namespace alluvium::grains::test
 {
-  using namespace alluvium::grains;
+  constexpr double g = 9.81, d = 1e-3, r = 0.5 * d, density = 2500.; // SI
 
-  constexpr double g = 9.81, d = 1e-3, r = 0.5 * d, density = 2500.;
-
+  /** A few grains, walls and a stepper, under gravity and whatever drag a test sets. */
   struct Scene
   {
     GrainArrays    grains;
@@ -49,6 +49,13 @@ namespace contact_scene
       stepper.set_walls({{{{-1., 0.}}, {{1., 0.}}, velocity, "floor"}});
     }
 
+    /** Turn gravity by @p angle, as if the floor were inclined and fell towards +x. */
+    void incline(const double angle)
+    {
+      gx = g * std::sin(angle);
+      gy = -g * std::cos(angle);
+    }
+
     void step(const double dt, const int n = 1)
     {
       for (int s = 0; s < n; ++s)
@@ -66,14 +73,21 @@ namespace contact_scene
         }
     }
 
-    double energy() const
+    double kinetic_energy() const
     {
       double e = 0.;
       for (std::size_t k = 0; k < grains.n(); ++k)
         e += 0.5 * grains.mass[k] *
-               (grains.vx[k] * grains.vx[k] + grains.vy[k] * grains.vy[k] +
-                0.5 * std::pow(grains.radius[k] * grains.omega[k], 2)) -
-             grains.mass[k] * (gx * grains.x[k] + gy * grains.y[k]);
+             (grains.vx[k] * grains.vx[k] + grains.vy[k] * grains.vy[k] +
+              0.5 * std::pow(grains.radius[k] * grains.omega[k], 2));
+      return e;
+    }
+
+    double energy() const
+    {
+      double e = kinetic_energy();
+      for (std::size_t k = 0; k < grains.n(); ++k)
+        e -= grains.mass[k] * (gx * grains.x[k] + gy * grains.y[k]);
       return e;
     }
 
@@ -93,4 +107,4 @@ namespace contact_scene
       stepper.settings().dead_zone          = 0.;
     }
   };
-} // namespace contact_scene
+} // namespace alluvium::grains::test

@@ -3,7 +3,7 @@
 
 #include "contact_scene.h"
 
-using namespace contact_scene;
+using namespace alluvium::grains::test;
 
 namespace
 {

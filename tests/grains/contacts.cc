@@ -10,7 +10,7 @@
 #include "contact_scene.h"
 
 using namespace alluvium;
-using namespace contact_scene;
+using namespace alluvium::grains::test;
 
 namespace
 {
