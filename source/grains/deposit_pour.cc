@@ -56,11 +56,11 @@ namespace alluvium::grains
     return support;
   }
 
-  std::array<double, 2> Pour::roll(double x, const double r) const
+  Pour::Place Pour::roll(double x, const double r) const
   {
     double y        = std::numeric_limits<double>::infinity();
     int    support  = land(x, y, r, -1);
-    int    previous = -1;
+    int    previous = -1, other = nothing;
     for (unsigned int move = 0; support >= 0 && move < 1000; ++move)
       {
         const Disc  &c     = discs[support];
@@ -94,10 +94,10 @@ namespace alluvium::grains
           if (k == support)
             return;
           const Disc  &e  = discs[k];
-          const double dx = e.x - c.x, dy = e.y - c.y, d2 = dx * dx + dy * dy, d = std::sqrt(d2), other = e.r + r;
-          if (d >= reach + other)
+          const double dx = e.x - c.x, dy = e.y - c.y, d2 = dx * dx + dy * dy, d = std::sqrt(d2), its_reach = e.r + r;
+          if (d >= reach + its_reach)
             return;
-          const double along  = 0.5 * (d2 + reach * reach - other * other) / d;
+          const double along  = 0.5 * (d2 + reach * reach - its_reach * its_reach) / d;
           const double across = std::sqrt(std::max(0., reach * reach - along * along));
           for (const double s : {-1., 1.})
             {
@@ -117,7 +117,10 @@ namespace alluvium::grains
         x     = c.x + side * reach * std::sin(angle);
         y     = c.y + reach * std::cos(angle);
         if (event == Event::wall || event == Event::floor)
-          break;
+          {
+            other = event == Event::floor ? floor : side > 0. ? right : left;
+            break;
+          }
         if (event == Event::falls)
           {
             previous = -1;
@@ -125,28 +128,31 @@ namespace alluvium::grains
             continue;
           }
         if (side * (discs[next].x - x) > 0.) // it rests between its two supports
-          break;
+          {
+            other = next;
+            break;
+          }
         previous = support;
         support  = next;
       }
-    return {{x, y}};
+    return {x, y, {{support, other}}};
   }
 
-  std::array<double, 2> Pour::add(const double radius, RandomNumbers &random)
+  Pour::Place Pour::add(const double radius, RandomNumbers &random)
   {
-    std::array<double, 2> best{{0., std::numeric_limits<double>::infinity()}};
+    Place best{0., std::numeric_limits<double>::infinity(), {{nothing, nothing}}};
     for (unsigned int attempt = 0; attempt < 3; ++attempt)
       {
-        const auto place = roll(random.uniform(box.lower[0] + radius, box.upper[0] - radius), radius);
-        if (place[1] < best[1])
+        const Place place = roll(random.uniform(box.lower[0] + radius, box.upper[0] - radius), radius);
+        if (place.y < best.y)
           best = place;
       }
-    const int column = std::clamp(static_cast<int>((best[0] - box.lower[0]) / cell), 0, n_columns - 1);
-    const int row    = std::max(0, static_cast<int>((best[1] - box.lower[1]) / cell));
+    const int column = std::clamp(static_cast<int>((best.x - box.lower[0]) / cell), 0, n_columns - 1);
+    const int row    = std::max(0, static_cast<int>((best.y - box.lower[1]) / cell));
     if (cells.size() < static_cast<std::size_t>(row + 1) * n_columns)
       cells.resize(static_cast<std::size_t>(row + 1) * n_columns);
     cells[static_cast<std::size_t>(row) * n_columns + column].push_back(static_cast<int>(discs.size()));
-    discs.push_back({best[0], best[1], radius});
+    discs.push_back({best.x, best.y, radius});
     return best;
   }
 } // namespace alluvium::grains

@@ -1,0 +1,276 @@
+// One settled bed, made and measured: what the work-precision charts and the table of deposits are drawn from.
+//
+//   benchmark_settled_bed --list
+//       the contact solvers there are, one a line
+//   benchmark_settled_bed --make N BED.csv [--set 'NAME = VALUE']...
+//       settle N discs (parameters of the deposit 'settled bed') and say what it took and how still the bed is
+//   benchmark_settled_bed BED.csv [--solver NAME] [--dt DT] [--time SECONDS] [--set 'NAME = VALUE']...
+//       hold the bed (parameters of the contacts) and say what that costs and how exact it is
+//
+// A bed is a table of grains as the deposit 'file' reads it, in a box from (0, 0) with walls left, right and below; the
+// comment `# width = W` in it says how wide. Every call prints one JSON object. Held beds first take 0.01 s that does
+// not count.
+#include <alluvium/grains/contact_solver.h>
+#include <alluvium/grains/contact_stepper.h>
+#include <alluvium/grains/deposit.h>
+#include <alluvium/grains/deposit_table.h>
+#include <alluvium/utilities/plugin.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <string>
+
+using namespace alluvium;
+using namespace alluvium::grains;
+
+namespace
+{
+  constexpr double density = 2630., gravity = 9.81, window = 1e-3, warm_up = 0.01; // SI
+
+  double cpu_seconds()
+  {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+  }
+
+  [[noreturn]] void fail(const std::string &message)
+  {
+    std::fprintf(stderr, "benchmark_settled_bed: %s\n", message.c_str());
+    std::exit(1);
+  }
+
+  double read_width(const std::string &file)
+  {
+    std::ifstream in(file);
+    double        width = 0.;
+    for (std::string line; std::getline(in, line) && line.rfind("#", 0) == 0;)
+      std::sscanf(line.c_str(), "# width = %lf", &width);
+    if (!(width > 0.))
+      fail(file + " has no line '# width = ...' at its top.");
+    return width;
+  }
+
+  /** A bed between its walls, and what is measured on it. */
+  struct Bed
+  {
+    GrainArrays    grains;
+    GrainLoads     loads;
+    ContactStepper stepper;
+    double         weight = 0., diameter = 0.;
+
+    Bed(const std::vector<Seed> &seeds, const double width)
+    {
+      const double top = 1e3 * width;
+      stepper.set_walls({{{{0., top}}, {{0., 0.}}, {{0., 0.}}, "left"},
+                         {{{0., 0.}}, {{width, 0.}}, {{0., 0.}}, "bottom"},
+                         {{{width, 0.}}, {{width, top}}, {{0., 0.}}, "right"}});
+      grains.resize(seeds.size());
+      loads.reset(seeds.size());
+      for (std::size_t k = 0; k < seeds.size(); ++k)
+        {
+          const Seed &s    = seeds[k];
+          grains.id[k]     = static_cast<GrainId>(k);
+          grains.x[k]      = s.x;
+          grains.y[k]      = s.y;
+          grains.radius[k] = s.radius;
+          grains.mass[k]   = s.density * M_PI * s.radius * s.radius;
+          loads.fy[k]      = -grains.mass[k] * gravity;
+          weight -= loads.fy[k];
+          diameter += 2. * s.radius / seeds.size();
+        }
+    }
+
+    ContactReport step(const double dt) { return stepper.advance(grains, loads, dt, {{0., -gravity}}); }
+
+    double speed() const
+    {
+      double sum = 0.;
+      for (std::size_t k = 0; k < grains.n(); ++k)
+        sum += grains.vx[k] * grains.vx[k] + grains.vy[k] * grains.vy[k];
+      return std::sqrt(sum / grains.n());
+    }
+  };
+
+  double support(const ContactReport &report, const double weight)
+  {
+    double sum = 0.;
+    for (const auto &[name, force] : report.wall_force)
+      sum -= force[1];
+    return sum / weight;
+  }
+
+  /** Area fraction between the heights @p low and @p high, exactly. */
+  double packing(const std::vector<Seed> &seeds, const double width, const double low, const double high)
+  {
+    double     area  = 0.;
+    const auto below = [](const Seed &s, const double height) {
+      const double z = std::clamp(height - s.y, -s.radius, s.radius);
+      return s.radius * s.radius * std::asin(z / s.radius) + z * std::sqrt(s.radius * s.radius - z * z);
+    };
+    for (const Seed &s : seeds)
+      area += below(s, high) - below(s, low);
+    return area / (width * (high - low));
+  }
+
+  void make(const int n, const std::string &file, const std::string &set)
+  {
+    const double             width = std::ceil(std::sqrt(n)) * 1.1 * 2e-4;
+    dealii::ParameterHandler prm;
+    auto                     deposit = Registry<Deposit>::entries().at("settled bed").create();
+    deposit->add_parameters(prm);
+    prm.parse_input_from_string("set Number of grains = " + std::to_string(n) + "\nset Cache folder =\n" + set);
+    DepositContext context;
+    context.lower                 = {{0., 0.}};
+    context.upper                 = {{width, 3. * width}};
+    context.density               = density;
+    context.gravity               = {{0., -gravity}};
+    const double            start = cpu_seconds();
+    const std::vector<Seed> seeds = deposit->make(context);
+    const double            cpu   = cpu_seconds() - start;
+    char                    text[64];
+    std::snprintf(text, sizeof text, "width = %.17g", width);
+    write_grain_table(file, seeds, text);
+
+    double top = 0.;
+    for (const Seed &s : seeds)
+      top = std::max(top, s.y);
+    const double layer = 2.2e-4, phi = packing(seeds, width, 4. * layer, top - 6. * layer);
+
+    // How still it is: ten steps of 1 ms without any impulse known.
+    Bed                 bed(seeds, width);
+    const ContactReport first = bed.step(1e-12); // only to measure the overlaps of the deposit as it is
+    const double        mean = first.mean_penetration, largest = first.max_penetration;
+    Bed                 still(seeds, width);
+    double              sum = 0., fastest = 0., carried = 0.;
+    constexpr double    dt    = 1e-3;
+    constexpr int       steps = 10;
+    for (int s = 0; s < steps; ++s)
+      {
+        const ContactReport report = still.step(dt);
+        carried += support(report, still.weight) / steps;
+        sum += still.speed() / (gravity * dt) / steps;
+        fastest = std::max(fastest, report.max_velocity / (gravity * dt));
+      }
+    double moved = 0.;
+    for (std::size_t k = 0; k < seeds.size(); ++k)
+      moved = std::max(moved, std::hypot(still.grains.x[k] - seeds[k].x, still.grains.y[k] - seeds[k].y));
+    std::printf(
+      "{\"discs\": %zu, \"cpu_s\": %.3f, \"packing\": %.4f, \"mean_penetration_d\": %.2e, \"max_penetration_d\": %.2e, "
+      "\"speed_over_g_dt\": %.2e, \"fastest_over_g_dt\": %.2e, \"support\": %.6f, \"moved_in_10_ms_d\": %.2e}\n",
+      seeds.size(),
+      cpu,
+      phi,
+      mean / bed.diameter,
+      largest / bed.diameter,
+      sum,
+      fastest,
+      carried,
+      moved / bed.diameter);
+  }
+
+  void
+  hold(const std::string &file, const std::string &solver, const double dt, const double time, const std::string &set)
+  {
+    Bed                      bed(read_grain_table(file, density), read_width(file));
+    dealii::ParameterHandler prm;
+    bed.stepper.add_parameters(prm);
+    if (!solver.empty())
+      prm.set("Contact solver", solver);
+    prm.parse_input_from_string(set);
+
+    const int run_up = static_cast<int>(std::lround(warm_up / dt)), steps = static_cast<int>(std::lround(time / dt)),
+              per_window      = std::max(1, static_cast<int>(std::lround(window / dt)));
+    unsigned long long sweeps = 0, updates = 0;
+    unsigned int       unconverged = 0, contacts = 0;
+    double             mean = 0., largest = 0., seconds = 0., square = 0., carried = 0., in_window = 0., speed = 0.;
+    for (int s = -run_up; s < steps; ++s)
+      {
+        const double        start  = cpu_seconds();
+        const ContactReport report = bed.step(dt);
+        if (s < 0)
+          continue;
+        seconds += cpu_seconds() - start;
+        sweeps += report.n_sweeps;
+        updates += report.n_updates;
+        unconverged += report.n_unconverged;
+        contacts = report.n_contacts;
+        mean += report.mean_penetration / steps;
+        largest            = std::max(largest, report.max_penetration);
+        const double share = support(report, bed.weight);
+        carried += share / steps;
+        in_window += share / per_window;
+        speed += bed.speed() / steps;
+        if ((s + 1) % per_window == 0)
+          {
+            square += (in_window - 1.) * (in_window - 1.);
+            in_window = 0.;
+          }
+      }
+    std::printf(
+      "{\"cpu_s_per_10_ms\": %.6g, \"mean_penetration_d\": %.4g, \"max_penetration_d\": %.4g, \"support\": %.8f, "
+      "\"support_error\": %.4g, \"speed_m_per_s\": %.4g, \"sweeps_per_step\": %.4g, \"ns_per_update\": %.4g, "
+      "\"unconverged\": %u, \"contacts\": %u}\n",
+      seconds * 0.01 / time,
+      mean / bed.diameter,
+      largest / bed.diameter,
+      carried,
+      std::sqrt(square / (steps / per_window)),
+      speed,
+      double(sweeps) / steps,
+      1e9 * seconds / std::max(1ull, updates),
+      unconverged,
+      contacts);
+  }
+} // namespace
+
+int main(int argc, char **argv)
+{
+  std::string file, solver, set;
+  double      dt = 1e-4, time = 0.05;
+  int         n = 0;
+  for (int k = 1; k < argc; ++k)
+    {
+      const std::string a    = argv[k];
+      const auto        next = [&]() -> std::string {
+        if (k + 1 >= argc)
+          fail(a + " wants a value.");
+        return argv[++k];
+      };
+      if (a == "--list")
+        {
+          for (const auto &entry : Registry<ContactSolver>::entries())
+            std::printf("%s\n", entry.first.c_str());
+          return 0;
+        }
+      else if (a == "--make")
+        n = std::atoi(next().c_str());
+      else if (a == "--solver")
+        solver = next();
+      else if (a == "--dt")
+        dt = std::atof(next().c_str());
+      else if (a == "--time")
+        time = std::atof(next().c_str());
+      else if (a == "--set")
+        set += "set " + next() + "\n";
+      else if (a[0] == '-')
+        fail("there is no option " + a + ".");
+      else
+        file = a;
+    }
+  if (file.empty())
+    fail("name a bed.");
+  try
+    {
+      if (n > 0)
+        make(n, file, set);
+      else
+        hold(file, solver, dt, time, set);
+    }
+  catch (const UserError &e)
+    {
+      fail(e.what());
+    }
+}
