@@ -35,7 +35,7 @@ namespace alluvium::grains
     const int c1      = std::min(n_columns - 1, static_cast<int>((x + cell - box.lower[0]) / cell));
     const int start =
       std::isfinite(y) ? std::min(n_rows - 1, static_cast<int>((y - box.lower[1]) / cell) + 1) : n_rows - 1;
-    const double ceiling = y * (1. + 1e-12);
+    const double ceiling = y + 1e-9 * radius;
     // Downwards, until no disc of a lower row can reach what has been found.
     for (int row = start; row >= 0 && box.lower[1] + (row + 2) * cell > best; --row)
       for (int column = c0; column <= c1; ++column)
@@ -56,11 +56,10 @@ namespace alluvium::grains
     return support;
   }
 
-  Pour::Place Pour::roll(double x, const double r) const
+  std::array<double, 2> Pour::roll(double x, const double r) const
   {
-    double y        = std::numeric_limits<double>::infinity();
-    int    support  = land(x, y, r, -1);
-    int    previous = -1, other = nothing;
+    double y       = std::numeric_limits<double>::infinity();
+    int    support = land(x, y, r, -1);
     for (unsigned int move = 0; support >= 0 && move < 1000; ++move)
       {
         const Disc  &c     = discs[support];
@@ -94,17 +93,18 @@ namespace alluvium::grains
           if (k == support)
             return;
           const Disc  &e  = discs[k];
-          const double dx = e.x - c.x, dy = e.y - c.y, d2 = dx * dx + dy * dy, d = std::sqrt(d2), its_reach = e.r + r;
-          if (d >= reach + its_reach)
+          const double dx = e.x - c.x, dy = e.y - c.y, d2 = dx * dx + dy * dy, d = std::sqrt(d2), other = e.r + r;
+          if (d >= reach + other)
             return;
-          const double along  = 0.5 * (d2 + reach * reach - its_reach * its_reach) / d;
+          const double along  = 0.5 * (d2 + reach * reach - other * other) / d;
           const double across = std::sqrt(std::max(0., reach * reach - along * along));
           for (const double s : {-1., 1.})
             {
               const double px = (along * dx - s * across * dy) / d, py = (along * dy + s * across * dx) / d;
               const double a = std::atan2(side * px, py);
-              // The support just left touches at the place where this roll begins.
-              if (a > now + (k == previous ? 1e-9 : -1e-9) && a < angle)
+              // Only what comes nearer is hit: the support just left touches at the place where this roll begins.
+              const bool nearer = side * std::cos(a) * (dx - px) - std::sin(a) * (dy - py) > 0.;
+              if (a > now - 1e-9 && a < angle && nearer)
                 {
                   angle = a;
                   event = Event::disc;
@@ -117,42 +117,34 @@ namespace alluvium::grains
         x     = c.x + side * reach * std::sin(angle);
         y     = c.y + reach * std::cos(angle);
         if (event == Event::wall || event == Event::floor)
-          {
-            other = event == Event::floor ? floor : side > 0. ? right : left;
-            break;
-          }
+          break;
         if (event == Event::falls)
           {
-            previous = -1;
-            support  = land(x, y, r, support);
+            support = land(x, y, r, support);
             continue;
           }
         if (side * (discs[next].x - x) > 0.) // it rests between its two supports
-          {
-            other = next;
-            break;
-          }
-        previous = support;
-        support  = next;
+          break;
+        support = next;
       }
-    return {x, y, {{support, other}}};
+    return {{x, y}};
   }
 
-  Pour::Place Pour::add(const double radius, RandomNumbers &random)
+  std::array<double, 2> Pour::add(const double radius, RandomNumbers &random)
   {
-    Place best{0., std::numeric_limits<double>::infinity(), {{nothing, nothing}}};
+    std::array<double, 2> best{{0., std::numeric_limits<double>::infinity()}};
     for (unsigned int attempt = 0; attempt < 3; ++attempt)
       {
-        const Place place = roll(random.uniform(box.lower[0] + radius, box.upper[0] - radius), radius);
-        if (place.y < best.y)
+        const auto place = roll(random.uniform(box.lower[0] + radius, box.upper[0] - radius), radius);
+        if (place[1] < best[1])
           best = place;
       }
-    const int column = std::clamp(static_cast<int>((best.x - box.lower[0]) / cell), 0, n_columns - 1);
-    const int row    = std::max(0, static_cast<int>((best.y - box.lower[1]) / cell));
+    const int column = std::clamp(static_cast<int>((best[0] - box.lower[0]) / cell), 0, n_columns - 1);
+    const int row    = std::max(0, static_cast<int>((best[1] - box.lower[1]) / cell));
     if (cells.size() < static_cast<std::size_t>(row + 1) * n_columns)
       cells.resize(static_cast<std::size_t>(row + 1) * n_columns);
     cells[static_cast<std::size_t>(row) * n_columns + column].push_back(static_cast<int>(discs.size()));
-    discs.push_back({best.x, best.y, radius});
+    discs.push_back({best[0], best[1], radius});
     return best;
   }
 } // namespace alluvium::grains

@@ -1,6 +1,6 @@
-#include <alluvium/grains/contact_stepper.h>
 #include <alluvium/grains/deposit_box.h>
 #include <alluvium/grains/deposit_pour.h>
+#include <alluvium/grains/deposit_settle.h>
 #include <alluvium/grains/deposit_table.h>
 #include <alluvium/grains/random_numbers.h>
 #include <alluvium/utilities/plugin.h>
@@ -123,10 +123,10 @@ namespace alluvium::grains
 
     std::vector<Seed> settle(const DepositContext &context, const DepositBox &box, const double g) const
     {
-      RandomNumbers     random(seed);
-      Pour              pour(box, 0.5 * d_min * ratio);
-      std::vector<Seed> seeds;
-      double            area = 0.;
+      RandomNumbers            random(seed);
+      Pour                     pour(box, 0.5 * d_min * ratio);
+      std::vector<Seed>        seeds;
+      double                   area = 0.;
       // By height: as many as a bed of packing 0.84 would have, and two layers more.
       const double enough = 0.84 * box.width() * (height + 2. * d_min * ratio);
       while (n_wanted > 0 ? seeds.size() < n_wanted : area < enough)
@@ -136,79 +136,17 @@ namespace alluvium::grains
           seeds.push_back({p[0], p[1], r, context.density});
           area += M_PI * r * r;
         }
-      bring_to_rest(seeds, box, g);
+      const Settling settling{box, g, friction};
+      bring_to_rest(settling, seeds);
       if (n_wanted == 0)
         {
           const double top = box.lower[1] + height;
           seeds.erase(std::remove_if(seeds.begin(), seeds.end(), [top](const Seed &s) { return s.y + s.radius > top; }),
                       seeds.end());
           check_user(!seeds.empty(), "The deposit 'settled bed' has no grains: its 'Bed height' is less than one.");
-          bring_to_rest(seeds, box, g);
+          bring_to_rest(settling, seeds);
         }
       return seeds;
-    }
-
-    void bring_to_rest(std::vector<Seed> &seeds, const DepositBox &box, const double g) const
-    {
-      // Neighbours in space become neighbours in memory: rows of about one diameter, from left to right.
-      const double row = d_min * ratio;
-      std::sort(seeds.begin(), seeds.end(), [&](const Seed &a, const Seed &b) {
-        const double ra = std::floor((a.y - box.lower[1]) / row), rb = std::floor((b.y - box.lower[1]) / row);
-        return ra != rb ? ra < rb : a.x != b.x ? a.x < b.x : a.y < b.y;
-      });
-
-      GrainArrays       grains;
-      const std::size_t n = seeds.size();
-      grains.resize(n);
-      double weight = 0.;
-      for (std::size_t k = 0; k < n; ++k)
-        {
-          grains.id[k]     = static_cast<GrainId>(k);
-          grains.x[k]      = seeds[k].x;
-          grains.y[k]      = seeds[k].y;
-          grains.radius[k] = seeds[k].radius;
-          grains.mass[k]   = seeds[k].density * M_PI * seeds[k].radius * seeds[k].radius;
-          weight += grains.mass[k] * g;
-        }
-      const double   far = box.upper[1] + 1e3 * (box.width() + box.height());
-      ContactStepper stepper;
-      stepper.set_walls({{box.lower, {{box.upper[0], box.lower[1]}}, {{0., 0.}}, "floor"},
-                         {{{box.lower[0], far}}, box.lower, {{0., 0.}}, "left"},
-                         {{{box.upper[0], box.lower[1]}}, {{box.upper[0], far}}, {{0., 0.}}, "right"}});
-      stepper.settings().friction = stepper.settings().wall_friction = friction;
-
-      // At first slowly, in a thick fluid, so that grains creep into place instead of bouncing about; then without it.
-      const double dt = 0.2 * std::sqrt(d_min / g);
-      GrainLoads   loads;
-      loads.reset(n);
-      for (std::size_t k = 0; k < n; ++k)
-        loads.fy[k] = -grains.mass[k] * g;
-      constexpr int n_steps = 4000;
-      int           quiet = 0, step = 0;
-      bool          thick = true;
-      for (; step < n_steps && quiet < 10; ++step)
-        {
-          for (std::size_t k = 0; k < n; ++k)
-            loads.drag[k] = thick ? grains.mass[k] / (2. * dt) : 0.;
-          stepper.settings().residual_tolerance = thick ? 1e-5 : 1e-6;
-          const ContactReport report            = stepper.advance(grains, loads, dt, {{0., -g}});
-          double              support = 0., energy = 0.;
-          for (const auto &[name, force] : report.wall_force)
-            support -= force[1] / weight;
-          for (std::size_t k = 0; k < n; ++k)
-            energy += grains.mass[k] * (grains.vx[k] * grains.vx[k] + grains.vy[k] * grains.vy[k]);
-          const double speed = std::sqrt(energy * g / weight) / (g * dt);
-          if (thick)
-            thick = step < 200 && !(speed < 1e-2 && std::abs(support - 1.) < 1e-2);
-          else
-            quiet = speed < 1e-3 && std::abs(support - 1.) < 1e-4 ? quiet + 1 : 0;
-        }
-      check_user(quiet > 0, "The deposit 'settled bed' did not come to rest: try another seed or more friction.");
-      for (std::size_t k = 0; k < n; ++k)
-        {
-          seeds[k].x = grains.x[k];
-          seeds[k].y = grains.y[k];
-        }
     }
   };
 

@@ -17,20 +17,10 @@ namespace alluvium::grains
   class Pour
   {
   public:
-    /** What a disc lies on besides earlier discs, whose index it is otherwise. */
-    static constexpr int floor = -1, left = -2, right = -3, nothing = -4;
-
-    /** Where a disc came to rest, and on what. */
-    struct Place
-    {
-      double             x, y;
-      std::array<int, 2> supports;
-    };
-
     Pour(const DepositBox &box, double largest_radius);
 
     /** Drop one disc and keep it; returns its place. */
-    Place add(double radius, RandomNumbers &random);
+    std::array<double, 2> add(double radius, RandomNumbers &random);
 
   private:
     struct Disc
@@ -43,7 +33,7 @@ namespace alluvium::grains
     std::vector<std::vector<int>> cells; // discs by cell, row by row upwards; grows with the bed
     std::vector<Disc>             discs;
 
-    Place roll(double x, double radius) const;
+    std::array<double, 2> roll(double x, double radius) const;
     /** The disc that a falling one lands on, -1 for the floor; @p y is where it starts, and then where it lands. */
     int land(double x, double &y, double radius, int except) const;
     template <class Visit>

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <alluvium/grains/contact_archive.h>
 #include <alluvium/grains/deposit.h>
 #include <alluvium/grains/deposit_box.h>
 
@@ -27,11 +26,9 @@ namespace alluvium::grains
   /**
    * Let the grains go under gravity, on a floor and between walls of the box, until they stand still and the walls carry
    * them: at first in a thick fluid, so that they creep into place, then without it. Sorts @p seeds into rows, which is
-   * the order that contacts like best, and numbers @p forces anew with them. @p forces are contact impulses to start
-   * with, by index in @p seeds (empty: none known), and then those at the end. Throws UserError if the bed does not come
-   * to rest.
+   * the order that contacts like best. Throws UserError if the bed does not come to rest.
    */
-  Stillness bring_to_rest(const Settling &settling, std::vector<Seed> &seeds, ContactArchive &forces);
+  Stillness bring_to_rest(const Settling &settling, std::vector<Seed> &seeds);
 
   /** Walls of the bed: floor, left, right, in this order. */
   std::vector<WallSegment> settling_walls(const DepositBox &box);
