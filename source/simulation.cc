@@ -5,6 +5,7 @@
 #include <alluvium/grains/contact_stepper.h>
 #include <alluvium/grains/grain_checkpoint.h>
 #include <alluvium/grains/grain_store.h>
+#include <alluvium/grains/packing.h>
 #include <alluvium/mesh/adaptivity.h>
 #include <alluvium/mesh/bed_faces.h>
 #include <alluvium/mesh/domain.h>
@@ -284,7 +285,12 @@ namespace alluvium
          std::to_string(grains.n()) + " discs, mean diameter " + number(d) + " m, fluid radius " +
            number(grain_setup.radius_factor()) + " of the contact radius");
     if (!initial_bed.empty())
-      line("bed", number(initial_bed.bottom()) + " m to " + number(initial_bed.top()) + " m");
+      {
+        const double packing = grains::inner_packing_fraction(grains);
+        line("bed",
+             number(initial_bed.bottom()) + " m to " + number(initial_bed.top()) + " m" +
+               (packing > 0. ? ", packing fraction " + number(packing) + " inside" : ""));
+      }
     if (has_fluid)
       {
         line("fluid",

@@ -6,9 +6,10 @@
 
 namespace alluvium::grains
 {
-  Pour::Pour(const DepositBox &box, const double largest_radius)
+  Pour::Pour(const DepositBox &box, const double largest_radius, const double looseness)
     : box(box)
     , cell(2. * largest_radius)
+    , looseness(looseness)
     , n_columns(static_cast<int>(box.width() / cell) + 1)
   {}
 
@@ -133,9 +134,17 @@ namespace alluvium::grains
   std::array<double, 2> Pour::add(const double radius, RandomNumbers &random)
   {
     std::array<double, 2> best{{0., std::numeric_limits<double>::infinity()}};
-    for (unsigned int attempt = 0; attempt < 3; ++attempt)
+    const bool            stays = looseness > 0. && random.uniform(0., 1.) < looseness;
+    for (unsigned int attempt = 0; attempt < (stays ? 1 : 3); ++attempt)
       {
-        const auto place = roll(random.uniform(box.lower[0] + radius, box.upper[0] - radius), radius);
+        const double x = random.uniform(box.lower[0] + radius, box.upper[0] - radius);
+        if (stays)
+          {
+            best = {{x, std::numeric_limits<double>::infinity()}};
+            land(x, best[1], radius, -1);
+            break;
+          }
+        const auto place = roll(x, radius);
         if (place[1] < best[1])
           best = place;
       }

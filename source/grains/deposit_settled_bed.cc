@@ -9,6 +9,9 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
 
 namespace alluvium::grains
 {
@@ -58,8 +61,18 @@ namespace alluvium::grains
       prm.add_parameter(
         "Friction while settling",
         friction,
-        "Coulomb friction between grains and with the walls while the bed is made [-]. Less makes it denser.",
+        "Coulomb friction between grains and with the walls while the bed is made [-]. A bed stands only where "
+        "friction is at least as large later. Poured beds have a packing near 0.81; below 0.3, friction makes them "
+        "denser.",
         Double(0.));
+      prm.add_parameter(
+        "Packing fraction",
+        packing,
+        "If above 0, pour loosely and look for the friction while settling that gives this packing fraction inside "
+        "the bed: about 0.77 (friction 1) to 0.83 (0.03). Beds of more than 4,000 grains, and beds by height, take "
+        "what "
+        "fits one of 2,000, and may be off by 0.01.",
+        Double(0., 0.91));
       prm.add_parameter(
         "Cache folder",
         cache,
@@ -77,7 +90,30 @@ namespace alluvium::grains
 
       // The bed settles straight down whatever way the scene is tilted.
       const double g_scene = std::hypot(context.gravity[0], context.gravity[1]), g = g_scene > 0. ? g_scene : 9.81;
-      std::string  recipe = "settled bed, version 1\n";
+      if (cache.empty())
+        return checked(settle(context, box, g).first, box);
+
+      const std::string recipe = write_recipe(context, box, g), folder = path_from(context.directory, cache),
+                        file = folder + "/settled_bed_" + hash(recipe) + ".csv";
+      if (has_comment(file, recipe))
+        return checked(read_grain_table(file, context.density), box);
+      std::error_code error;
+      std::filesystem::create_directories(folder, error);
+      check_user(!error, "Cannot make the cache folder '" + folder + "': " + error.message() + ".");
+      const auto [seeds, state] = settle(context, box, g);
+      write_grain_table(file, seeds, recipe + describe(state));
+      return checked(seeds, box);
+    }
+
+  private:
+    unsigned int n_wanted = 2000, seed = 1;
+    double       height = 0., d_min = 2e-4, ratio = 1.2, friction = 0.4, packing = 0.;
+    std::string  cache = "deposits", box_text;
+
+    /** Everything that makes the bed what it is; the version stands for this code and that of the contacts. */
+    std::string write_recipe(const DepositContext &context, const DepositBox &box, const double g) const
+    {
+      std::string recipe = "settled bed, version 2\n";
       for (const auto &[name, value] : {std::make_pair("x0", box.lower[0]),
                                         std::make_pair("y0", box.lower[1]),
                                         std::make_pair("x1", box.upper[0]),
@@ -86,29 +122,34 @@ namespace alluvium::grains
                                         std::make_pair("d_min", d_min),
                                         std::make_pair("ratio", ratio),
                                         std::make_pair("seed", double(seed)),
-                                        std::make_pair("friction", friction),
+                                        std::make_pair("friction", packing > 0. ? 0. : friction),
+                                        std::make_pair("packing", packing),
                                         std::make_pair("density", context.density),
                                         std::make_pair("gravity", g)})
         recipe += std::string(name) + " = " + exact(value) + "\n";
-
-      if (cache.empty())
-        return checked(settle(context, box, g), box);
-      const std::string folder = path_from(context.directory, cache),
-                        file   = folder + "/settled_bed_" + hash(recipe) + ".csv";
-      if (std::filesystem::exists(file))
-        return checked(read_grain_table(file, context.density), box);
-      std::error_code error;
-      std::filesystem::create_directories(folder, error);
-      check_user(!error, "Cannot make the cache folder '" + folder + "': " + error.message() + ".");
-      const std::vector<Seed> seeds = settle(context, box, g);
-      write_grain_table(file, seeds, recipe);
-      return checked(seeds, box);
+      return recipe;
     }
 
-  private:
-    unsigned int n_wanted = 2000, seed = 1;
-    double       height = 0., d_min = 2e-4, ratio = 1.2, friction = 0.4;
-    std::string  cache = "deposits", box_text;
+    /** What was measured when the bed was made, for whoever opens its file. */
+    static std::string describe(const SettledState &state)
+    {
+      std::ostringstream text;
+      text << "measured: packing fraction " << state.packing << ", " << state.n_steps << " steps, speed left "
+           << state.speed << " m/s, support over weight " << state.support << ", mean penetration "
+           << state.mean_penetration << " m\n";
+      return text.str();
+    }
+
+    /** Whether @p file begins with @p comment, that is, was made by this recipe and not by one of the same hash. */
+    static bool has_comment(const std::string &file, const std::string &comment)
+    {
+      std::ifstream      in(file);
+      std::istringstream wanted(comment);
+      bool               same = in.good();
+      for (std::string line, other; same && std::getline(wanted, line);)
+        same = std::getline(in, other) && other == "# " + line;
+      return same;
+    }
 
     static std::vector<Seed> checked(std::vector<Seed> seeds, const DepositBox &box)
     {
@@ -121,33 +162,79 @@ namespace alluvium::grains
       return seeds;
     }
 
-    std::vector<Seed> settle(const DepositContext &context, const DepositBox &box, const double g) const
+    /** Pour discs until there are @p n of them or, if n is 0, enough for a bed of the wanted height. */
+    std::vector<Seed>
+    pour(const DepositContext &context, const DepositBox &box, const double looseness, const unsigned int n) const
     {
-      RandomNumbers            random(seed);
-      Pour                     pour(box, 0.5 * d_min * ratio);
-      std::vector<Seed>        seeds;
-      double                   area = 0.;
+      RandomNumbers     random(seed);
+      Pour              pour(box, 0.5 * d_min * ratio, looseness);
+      std::vector<Seed> seeds;
+      double            area = 0.;
       // By height: as many as a bed of packing 0.84 would have, and two layers more.
       const double enough = 0.84 * box.width() * (height + 2. * d_min * ratio);
-      while (n_wanted > 0 ? seeds.size() < n_wanted : area < enough)
+      while (n > 0 ? seeds.size() < n : area < enough)
         {
           const double r = 0.5 * d_min * random.uniform(1., ratio);
           const auto   p = pour.add(r, random);
           seeds.push_back({p[0], p[1], r, context.density});
           area += M_PI * r * r;
         }
-      const Settling settling{box, g, friction};
-      bring_to_rest(settling, seeds);
+      return seeds;
+    }
+
+    std::pair<std::vector<Seed>, SettledState>
+    settle(const DepositContext &context, const DepositBox &box, const double g) const
+    {
+      const double      looseness = packing > 0. ? loose : 0.;
+      const Settling    settling{box, g, packing > 0. ? find_friction(context, box, g) : friction};
+      std::vector<Seed> seeds = pour(context, box, looseness, n_wanted);
+      SettledState      state = bring_to_rest(settling, seeds);
       if (n_wanted == 0)
         {
           const double top = box.lower[1] + height;
           seeds.erase(std::remove_if(seeds.begin(), seeds.end(), [top](const Seed &s) { return s.y + s.radius > top; }),
                       seeds.end());
           check_user(!seeds.empty(), "The deposit 'settled bed' has no grains: its 'Bed height' is less than one.");
-          bring_to_rest(settling, seeds);
+          state = bring_to_rest(settling, seeds);
         }
-      return seeds;
+      return {seeds, state};
     }
+
+    /**
+     * Friction that gives the wanted packing to this bed if it is small, to a small one of the same grains otherwise:
+     * bisection, since friction makes beds looser; then the best that was seen, since chance has its part too.
+     */
+    double find_friction(const DepositContext &context, const DepositBox &box, const double g) const
+    {
+      const bool         small  = n_wanted > 0 && n_wanted <= 4000;
+      const unsigned int n      = small ? n_wanted : 2000;
+      const double       width  = small ? box.width() : 45. * d_min * ratio;
+      const DepositBox   sample = {box.lower, {{box.lower[0] + width, box.lower[1] + 1e3 * width}}};
+      double             best = 0., best_off = std::numeric_limits<double>::max();
+      const auto         packing_at = [&](const double mu) {
+        std::vector<Seed> seeds = pour(context, sample, loose, n);
+        const double      now   = bring_to_rest({sample, g, mu}, seeds).packing;
+        if (std::abs(now - packing) < best_off)
+          {
+            best     = mu;
+            best_off = std::abs(now - packing);
+          }
+        return now;
+      };
+      double       low = 0.03, high = 1.;
+      const double densest = packing_at(low), loosest = packing_at(high);
+      check_user(packing <= densest && packing >= loosest,
+                 "The deposit 'settled bed' cannot have the packing fraction " + std::to_string(packing) +
+                   ": friction gives it " + std::to_string(loosest) + " to " + std::to_string(densest) + ".");
+      for (unsigned int k = 0; k < 6 && best_off > 2e-3; ++k)
+        {
+          const double mu                         = std::sqrt(low * high);
+          (packing_at(mu) > packing ? low : high) = mu;
+        }
+      return best;
+    }
+
+    static constexpr double loose = 0.3; // share of discs that do not roll when poured for a wanted packing
   };
 
   ALLUVIUM_REGISTER(Deposit, SettledBed, "settled bed", "a random bed at rest on the floor of the domain.")

@@ -14,6 +14,7 @@
 #include <alluvium/grains/contact_stepper.h>
 #include <alluvium/grains/deposit.h>
 #include <alluvium/grains/deposit_table.h>
+#include <alluvium/grains/packing.h>
 #include <alluvium/utilities/plugin.h>
 
 #include <algorithm>
@@ -102,19 +103,6 @@ namespace
     return sum / weight;
   }
 
-  /** Area fraction between the heights @p low and @p high, exactly. */
-  double packing(const std::vector<Seed> &seeds, const double width, const double low, const double high)
-  {
-    double     area  = 0.;
-    const auto below = [](const Seed &s, const double height) {
-      const double z = std::clamp(height - s.y, -s.radius, s.radius);
-      return s.radius * s.radius * std::asin(z / s.radius) + z * std::sqrt(s.radius * s.radius - z * z);
-    };
-    for (const Seed &s : seeds)
-      area += below(s, high) - below(s, low);
-    return area / (width * (high - low));
-  }
-
   void make(const int n, const std::string &file, const std::string &set)
   {
     const double             width = std::ceil(std::sqrt(n)) * 1.1 * 2e-4;
@@ -133,11 +121,6 @@ namespace
     char                    text[64];
     std::snprintf(text, sizeof text, "width = %.17g", width);
     write_grain_table(file, seeds, text);
-
-    double top = 0.;
-    for (const Seed &s : seeds)
-      top = std::max(top, s.y);
-    const double layer = 2.2e-4, phi = packing(seeds, width, 4. * layer, top - 6. * layer);
 
     // How still it is: ten steps of 1 ms without any impulse known.
     Bed                 bed(seeds, width);
@@ -162,7 +145,7 @@ namespace
       "\"speed_over_g_dt\": %.2e, \"fastest_over_g_dt\": %.2e, \"support\": %.6f, \"moved_in_10_ms_d\": %.2e}\n",
       seeds.size(),
       cpu,
-      phi,
+      inner_packing_fraction(bed.grains),
       mean / bed.diameter,
       largest / bed.diameter,
       sum,

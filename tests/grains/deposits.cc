@@ -2,7 +2,9 @@
 #include <alluvium/grains/contact_overlaps.h>
 #include <alluvium/grains/contact_stepper.h>
 #include <alluvium/grains/deposit.h>
+#include <alluvium/grains/deposit_pour.h>
 #include <alluvium/grains/deposit_table.h>
+#include <alluvium/grains/packing.h>
 #include <alluvium/utilities/plugin.h>
 
 #include <gtest/gtest.h>
@@ -12,6 +14,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 using namespace alluvium;
 using namespace alluvium::grains;
@@ -152,6 +155,53 @@ TEST(Deposits, SettledBedStandsAndItsWallsCarryIt)
     EXPECT_NEAR(grains.y[k], before.y[k], 2e-3 * 2e-4);
 }
 
+// Each disc lies on what was there before and in nobody else; a hundred thousand of them make rare events happen.
+TEST(Deposits, PouredDiscsDoNotOverlap)
+{
+  constexpr double d = 2e-4;
+  for (const double looseness : {0., 0.3})
+    {
+      const DepositBox box{{{-0.035, -0.1}}, {{0.035, 1.}}};
+      Pour             pour(box, 0.6 * d, looseness);
+      RandomNumbers    random(2);
+      GrainArrays      grains;
+      grains.resize(100000);
+      for (std::size_t k = 0; k < grains.n(); ++k)
+        {
+          grains.id[k]     = static_cast<GrainId>(k);
+          grains.radius[k] = 0.5 * d * random.uniform(1., 1.2);
+          const auto p     = pour.add(grains.radius[k], random);
+          grains.x[k]      = p[0];
+          grains.y[k]      = p[1];
+        }
+      DepositContext c;
+      c.lower = box.lower;
+      c.upper = box.upper;
+      EXPECT_TRUE(find_overlaps(grains, ::box(c), 1e-9 * d).empty());
+      const double packing = inner_packing_fraction(grains);
+      EXPECT_GT(packing, looseness > 0. ? 0.72 : 0.80);
+      EXPECT_LT(packing, looseness > 0. ? 0.78 : 0.82);
+    }
+}
+
+// Packing is measured exactly enough: a square lattice has pi / 4 (d / a)^2.
+TEST(Deposits, PackingFraction)
+{
+  const auto seeds = make("lattice", "set Diameter = 1e-4\nset Spacing = 1.25e-4\nset Box = 0, 0, 0.01, 0.01");
+  EXPECT_NEAR(inner_packing_fraction(arrays(seeds)), 0.25 * M_PI * 0.64, 0.01);
+  EXPECT_EQ(inner_packing_fraction(arrays({seeds[0], seeds[1]})), 0.);
+  EXPECT_EQ(inner_packing_fraction(GrainArrays()), 0.);
+}
+
+TEST(Deposits, SettledBedHasTheWantedPacking)
+{
+  const auto        c     = context();
+  const std::string p     = "set Number of grains = 700\nset Cache folder =\nset Packing fraction = ";
+  const auto        seeds = make("settled bed", p + "0.80", c);
+  EXPECT_NEAR(inner_packing_fraction(arrays(seeds)), 0.80, 5e-3);
+  EXPECT_THROW(make("settled bed", p + "0.9", c), UserError);
+}
+
 TEST(Deposits, SettledBedIsReproducibleAndCached)
 {
   auto c              = context();
@@ -162,6 +212,17 @@ TEST(Deposits, SettledBedIsReproducibleAndCached)
   EXPECT_TRUE(same(a, from_cache));
   EXPECT_TRUE(same(a, fresh));
   make("settled bed", p + "set Seed = 2\n", c);
+  // A file of this name that another recipe made is not believed.
+  for (const auto &file : std::filesystem::directory_iterator(c.directory + "/deposits"))
+    {
+      std::ifstream     in(file.path());
+      std::stringstream text;
+      text << in.rdbuf();
+      EXPECT_NE(text.str().find("# measured: packing fraction"), std::string::npos);
+      std::ofstream(file.path()) << "# another recipe\nx,y,radius\n0,0,1\n";
+    }
+  EXPECT_TRUE(same(a, make("settled bed", p, c)));
+  EXPECT_TRUE(same(a, make("settled bed", p, c)));
   int files = 0;
   for ([[maybe_unused]] const auto &file : std::filesystem::directory_iterator(c.directory + "/deposits"))
     ++files;

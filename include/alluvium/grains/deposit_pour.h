@@ -12,12 +12,13 @@ namespace alluvium::grains
    * Pours discs into a box one by one: each falls at a random place and rolls down over the others until it lies on two
    * supports (Visscher & Bolsterli, Nature 239, 1972). The best of a few throws, the lowest, is kept, so that the
    * surface grows level. A bed made so is at rest if nothing lay on top of its discs; friction and dynamics have to do
-   * the rest.
+   * the rest. If @p looseness is above 0, that share of the discs stays where it lands and does not roll: too loose to
+   * stand, and so a start from which dynamics finds the packing that friction allows.
    */
   class Pour
   {
   public:
-    Pour(const DepositBox &box, double largest_radius);
+    Pour(const DepositBox &box, double largest_radius, double looseness = 0.);
 
     /** Drop one disc and keep it; returns its place. */
     std::array<double, 2> add(double radius, RandomNumbers &random);
@@ -28,7 +29,7 @@ namespace alluvium::grains
       double x, y, r;
     };
     DepositBox                    box;
-    double                        cell;
+    double                        cell, looseness;
     int                           n_columns;
     std::vector<std::vector<int>> cells; // discs by cell, row by row upwards; grows with the bed
     std::vector<Disc>             discs;
