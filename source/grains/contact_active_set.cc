@@ -27,9 +27,9 @@ namespace alluvium::grains
       double b = 0.;
       if (gap > delta)
         b = (gap - delta) / h;
-      else if (gap < -delta)
+      else if (gap < -delta && !margins.gentle)
         b = std::max(margins.correction * (gap + delta) / margins.base_h, -margins.push_out);
-      if (restitution > 0. && vn_start < -margins.threshold && gap + h * vn_free < delta)
+      if (restitution > 0. && !margins.gentle && vn_start < -margins.threshold && gap + h * vn_free < delta)
         b = gap > 0. ? restitution * vn_start : std::min(b, restitution * vn_start);
       return b;
     };

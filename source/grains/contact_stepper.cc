@@ -4,6 +4,7 @@
 #include <alluvium/grains/contact_bonds.h>
 #include <alluvium/grains/contact_material.h>
 #include <alluvium/grains/contact_neighbours.h>
+#include <alluvium/grains/contact_plausibility.h>
 #include <alluvium/grains/contact_search.h>
 #include <alluvium/grains/contact_solver.h>
 #include <alluvium/grains/contact_stepper.h>
@@ -95,7 +96,8 @@ namespace alluvium::grains
 
   ContactMargins ContactStepper::Implementation::choose_margins(const double h, const double velocity_scale) const
   {
-    const double   velocity_unit = g > 0. ? std::sqrt(g * d_min) : velocity_scale;
+    // Without gravity, overlaps must open also when all else has come to rest.
+    const double velocity_unit = g > 0. ? std::sqrt(g * d_min) : std::max(velocity_scale, 0.01 * d_min / base_h);
     ContactMargins margins;
     margins.h          = h;
     margins.base_h     = base_h;
@@ -177,8 +179,8 @@ namespace alluvium::grains
       velocity_scale = std::max({speeds[0], largest_speeds(bodies.free, bodies.n_discs())[0], wall_speed});
     if (!(velocity_scale > 0.))
       velocity_scale = 1e-3 * d_min / h;
-    problem.impulse_scale        = mean_mass * velocity_scale;
-    const ContactMargins margins = choose_margins(h, velocity_scale);
+    problem.impulse_scale  = mean_mass * velocity_scale;
+    ContactMargins margins = choose_margins(h, velocity_scale);
 
     neighbours.rescale(h);
     const double reach    = h * (speeds[0] + speeds[1] + wall_speed + 2. * g * h);
@@ -193,13 +195,24 @@ namespace alluvium::grains
     if (cohesion)
       bonds.attract(grains, geometry, *cohesion, h, std::max(margins.delta, 1e-9 * d_min), neighbours.pairs, bodies);
 
-    const Outcome outcome = solve(grains, margins, slack, wall_speed, report);
-    if ((!outcome.solution.converged || outcome.too_far) && level < settings.max_halvings)
+    Outcome      outcome = solve(grains, margins, slack, wall_speed, report);
+    const auto   before  = sum_motion(bodies.free, bodies.n_discs());
+    const double extra   = wall_speed + margins.push_out;
+    const bool   runaway = has_runaway_impulse(problem, before, extra),
+                 gain    = settings.restitution > 0. && has_gained_energy(problem, before, extra);
+    if ((!outcome.solution.converged || outcome.too_far || gain) && !runaway && level < settings.max_halvings)
       {
         ++report.n_halvings;
         for (int half = 0; half < 2; ++half)
           substep(grains, loads, 0.5 * h, level + 1, report);
         return;
+      }
+    if (runaway || gain)
+      {
+        if (runaway)
+          neighbours.drop_impulses();
+        margins.gentle = true;
+        outcome        = solve(grains, margins, neighbours.slack(grains), wall_speed, report);
       }
     if (!outcome.solution.converged)
       ++report.n_unconverged;

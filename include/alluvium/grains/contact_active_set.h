@@ -12,13 +12,14 @@ namespace alluvium::grains
   /** The lengths and speeds that decide which pairs take part in a sub-step, and how overlaps open. */
   struct ContactMargins
   {
-    double h          = 0.; // length of the sub-step [s]
-    double base_h     = 0.; // and of an unhalved one
-    double delta      = 0.; // gaps and overlaps below this count as closed [m]
-    double nearness   = 0.; // pairs this near take part, whether they approach or not [m]
-    double push_out   = 0.; // overlaps open at most this fast [m/s], and
-    double correction = 0.; // this part of them in one unhalved sub-step
-    double threshold  = 0.; // impacts slower than this do not bounce [m/s]
+    double h          = 0.;    // length of the sub-step [s]
+    double base_h     = 0.;    // and of an unhalved one
+    double delta      = 0.;    // gaps and overlaps below this count as closed [m]
+    double nearness   = 0.;    // pairs this near take part, whether they approach or not [m]
+    double push_out   = 0.;    // overlaps open at most this fast [m/s], and
+    double correction = 0.;    // this part of them in one unhalved sub-step
+    double threshold  = 0.;    // impacts slower than this do not bounce [m/s]
+    bool   gentle     = false; // overlaps do not open at all, and nothing bounces
   };
 
   /**

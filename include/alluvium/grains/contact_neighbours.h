@@ -35,6 +35,14 @@ namespace alluvium::grains
     /** Make the impulses those of a sub-step of length @p h [s]. */
     void rescale(double h);
 
+    /** Forget the impulses of the pairs. */
+    void drop_impulses()
+    {
+      for (auto *list : {&pairs.discs, &pairs.walls})
+        for (ContactPair &p : *list)
+          p.rn = p.rt = 0.;
+    }
+
     ContactArchive archive() const;
     void           set_archive(ContactArchive archive);
 
