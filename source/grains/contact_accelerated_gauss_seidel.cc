@@ -13,9 +13,10 @@ namespace alluvium::grains
    *
    * The momentum starts anew when both the objective v.M v / 2 + b.r and the changes of a sweep have grown since two
    * iterations ago. The objective alone is no judge where grains slide: friction makes the problem no minimisation, and
-   * near the solution the objective may have to grow. The momentum is capped when the residual stalls. After many
-   * forward sweeps, iterations become symmetric (forward, backward), which deep beds need for the momentum to be
-   * stable.
+   * near the solution the objective may have to grow. The momentum is capped further when the residual stalls. A bed
+   * that is known to be at rest is what eager restarts and caps keep from converging, so it has fewer. After many
+   * forward sweeps, iterations become symmetric (forward, backward), which beds of several hundred layers need for the
+   * momentum to be stable.
    */
   class AcceleratedGaussSeidel : public ContactSolver
   {
@@ -28,6 +29,12 @@ namespace alluvium::grains
         "How many forward sweeps to try before iterations become pairs of a forward and a backward sweep, "
         "which cost twice as much and converge on beds of any depth. 0: symmetric from the start.",
         dealii::Patterns::Integer(0));
+      prm.add_parameter(
+        "Largest momentum",
+        largest_momentum,
+        "The largest part of an impulse's last change that is added to it before a sweep [-]. Nearer to 1 is faster "
+        "on beds of many hundred layers, less settles down more surely.",
+        dealii::Patterns::Double(0., 1.));
       prm.add_parameter(
         "Stall sweeps",
         stall_sweeps,
@@ -43,13 +50,16 @@ namespace alluvium::grains
       last.clear();
       for (const Contact &c : problem.contacts)
         last.push_back({c.rn, c.rt});
-      for (Disc &d : problem.discs)
-        remember(d);
+      remember(problem);
 
-      double       t = 1., beta = 0., cap = 1., objective = std::numeric_limits<double>::max();
-      double       last_change  = std::numeric_limits<double>::max();
+      double t = 1., beta = 0., cap = largest_momentum;
+      // Where things move, momentum that overshoots finds nobody to stop it; a bed at rest needs patience.
+      const double growth       = tolerance.at_rest ? 1.5 : 1.;
+      if (tolerance.at_rest)
+        cap = std::min(cap, 1. - 1. / std::sqrt(1. + measure.n_contacts())); // 1 - 1 / number of layers, roughly
       double       stall_change = std::numeric_limits<double>::max();
       unsigned int stall_start  = 0;
+      double       objective = std::numeric_limits<double>::max(), last_change = objective;
       for (unsigned int iteration = 0; solution.sweeps < tolerance.max_sweeps; ++iteration)
         {
           if (iteration > 0)
@@ -73,17 +83,17 @@ namespace alluvium::grains
                 }
             }
 
-          if (solution.sweeps >= stall_start + stall_sweeps)
+          if (!tolerance.at_rest && solution.sweeps >= stall_start + stall_sweeps)
             {
               if (change > 0.7 * stall_change)
-                cap = std::max(0.95, cap - 0.01);
+                cap = std::max(std::min(0.95, largest_momentum), cap - 0.01);
               stall_change = change;
               stall_start  = solution.sweeps;
             }
           if (iteration % 2 == 1)
             {
               const double now = measure.kinetic_energy() + sums.work;
-              if (now > objective && change > last_change)
+              if (now > objective && change > growth * last_change)
                 t = 1.;
               objective   = now;
               last_change = change;
@@ -97,32 +107,11 @@ namespace alluvium::grains
     }
 
   private:
-    unsigned int forward_sweeps = 1000;
-    unsigned int stall_sweeps   = 100;
+    double       largest_momentum = 0.99;
+    unsigned int forward_sweeps   = 1000;
+    unsigned int stall_sweeps     = 100;
 
     mutable std::vector<LastImpulse> last; // kept to save the allocation
-
-    static void remember(Disc &d)
-    {
-      d.last_x = d.x;
-      d.last_y = d.y;
-      d.last_s = d.s;
-    }
-
-    static void extrapolate(ContactProblem &problem, const double beta)
-    {
-      for (std::size_t k = 0; k < problem.n_discs; ++k)
-        {
-          Disc      &d   = problem.discs[k];
-          const Disc now = d;
-          d.x += beta * (now.x - now.last_x);
-          d.y += beta * (now.y - now.last_y);
-          d.s += beta * (now.s - now.last_s);
-          d.last_x = now.x;
-          d.last_y = now.y;
-          d.last_s = now.s;
-        }
-    }
   };
 
   ALLUVIUM_REGISTER(ContactSolver,

@@ -202,6 +202,19 @@ namespace alluvium::grains
       }
   }
 
+  bool ContactActiveSet::is_cold(const double delta, const std::size_t n_discs) const
+  {
+    std::size_t closed = 0, warm = 0;
+    for (const Active &a : active)
+      if (a.point.gap <= delta)
+        {
+          ++closed;
+          warm += a.pair->rn > 0.;
+        }
+    // Of a bed at rest with known impulses, a third of the closed contacts carry none. And a small one needs no help.
+    return n_discs >= 1000 && 2 * warm < closed && 2 * closed > n_discs;
+  }
+
   bool ContactActiveSet::is_warm() const
   {
     return std::any_of(active.begin(), active.end(), [](const Active &a) { return a.pair->rn > 0.; });

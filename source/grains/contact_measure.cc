@@ -1,4 +1,5 @@
 #include <alluvium/grains/contact_measure.h>
+#include <alluvium/grains/contact_pack.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,15 +13,55 @@ namespace alluvium::grains
     constexpr double leap      = 0x1p20; // the next bound after a sum has outgrown its own
     constexpr double infinity  = std::numeric_limits<double>::infinity();
 
-    double kinetic_energy_of(const Disc &d)
+    /** Sum of v.M v / 2 over discs, of terms rounded as @p sum does; immovable ones count as nothing. */
+    template <typename T>
+    ALLUVIUM_INLINE void add_energy(const DiscValues<T> &d, const T &shift, T &sum)
     {
-      double energy = 0.;
-      if (d.inverse_mass > 0.)
-        energy += (d.x * d.x + d.y * d.y) / d.inverse_mass;
-      if (d.inverse_rotation > 0.)
-        energy += d.s * d.s / d.inverse_rotation;
-      return 0.5 * energy;
+      const T none{};
+      const T translation = d.inverse_mass > 0. ? 0.5 / d.inverse_mass : none;
+      const T rotation    = d.inverse_rotation > 0. ? 0.5 / d.inverse_rotation : none;
+      sum += (translation * (d.x * d.x + d.y * d.y) + rotation * (d.s * d.s) + shift) - shift;
     }
+
+    template <bool packed>
+    ALLUVIUM_INLINE double energy_of(const Disc *const discs, const std::size_t n, const double shift)
+    {
+      const std::size_t n_packs = packed ? n / pack_size : 0;
+      double            sum     = 0.;
+      if constexpr (packed)
+        {
+          Pack             sums{};
+          const Pack       shifts = Pack{} + shift;
+          DiscValues<Pack> values{};
+          for (std::size_t k = 0; k < pack_size * n_packs; k += pack_size)
+            {
+              load(discs[k], discs[k + 1], discs[k + 2], discs[k + 3], values);
+              add_energy(values, shifts, sums);
+            }
+          sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+        }
+      for (std::size_t k = pack_size * n_packs; k < n; ++k)
+        add_energy(values(discs[k]), shift, sum);
+      return sum;
+    }
+
+    using Energy = double(const Disc *, std::size_t, double);
+
+    double energy_plain(const Disc *const discs, const std::size_t n, const double shift)
+    {
+      return energy_of<false>(discs, n, shift);
+    }
+
+#ifdef __x86_64__
+    __attribute__((target("avx2"))) double energy_avx2(const Disc *const discs, const std::size_t n, const double shift)
+    {
+      return energy_of<true>(discs, n, shift);
+    }
+
+    Energy *const best_energy = __builtin_cpu_supports("avx2") ? energy_avx2 : energy_plain;
+#else
+    Energy *const best_energy = energy_plain;
+#endif
 
     /** The bound of the next sum of this kind, and what to say of this one. */
     double update(double &bound, const ReproducibleSum &sum)
@@ -98,8 +139,7 @@ namespace alluvium::grains
     while (true)
       {
         ReproducibleSum energy(energy_bound);
-        for (std::size_t k = 0; k < problem.n_owned_discs; ++k)
-          energy.add(kinetic_energy_of(problem.discs[k]));
+        energy.set(best_energy(problem.discs.data(), problem.n_owned_discs, energy.unit_shift()));
         if (problem.communicator != nullptr)
           {
             double all = energy.value();

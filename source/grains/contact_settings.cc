@@ -88,6 +88,11 @@ namespace alluvium::grains
       push_out,
       "Overlaps that are there from the start open at most at this times sqrt(g d) [-], so that they do not explode.",
       Double(0.));
+    prm.add_parameter(
+      "Cold start",
+      cold_start,
+      "Whether a bed whose contact impulses are not known yet starts from a hydrostatic guess, layer by "
+      "layer, instead of from zero.");
     prm.add_parameter("Steps to rest",
                       rest_steps,
                       "When over this many steps no load has changed by more than 1e-3 of a grain's weight and no "

@@ -1,4 +1,5 @@
 #include <alluvium/grains/cohesion.h>
+#include <alluvium/grains/cold_start.h>
 #include <alluvium/grains/contact_active_set.h>
 #include <alluvium/grains/contact_bodies.h>
 #include <alluvium/grains/contact_bonds.h>
@@ -56,6 +57,7 @@ namespace alluvium::grains
     ContactActiveSet    active;
     ContactBonds        bonds;
     std::vector<double> sub_px, sub_py, sub_ps; // impulses on the grains [N s/m]
+    std::vector<double> weight;                 // what the loads give each grain along gravity [N s/m]
 
     // Scratch of a step.
     ContactMaterials                   materials;
@@ -64,6 +66,8 @@ namespace alluvium::grains
     std::vector<std::array<double, 2>> wall_impulse;
     double                             base_h = 0.; // length of an unhalved sub-step
     double                             d_min = 0., d_max = 0., mean_mass = 0., g = 0.;
+    std::array<double, 2>              down{}; // unit vector of gravity
+    std::array<double, 2>              gravity{};
 
     const ContactSolver &solver() const
     {
@@ -76,13 +80,26 @@ namespace alluvium::grains
 
     void           set_scales(const GrainArrays &grains, std::array<double, 2> gravity);
     unsigned int   count_substeps(const GrainArrays &grains, const GrainLoads &loads, double dt) const;
+    void           find_weights(const GrainLoads &loads, double h);
     double         root_mean_square_speed() const; // at the start of the sub-step
     ContactMargins choose_margins(double h, double velocity_scale) const;
-    Outcome        solve(
-             const GrainArrays &grains, const ContactMargins &margins, double slack, double wall_speed, ContactReport &report);
-    void move(GrainArrays &grains, double h, ContactReport &report);
-    void substep(GrainArrays &grains, const GrainLoads &loads, double h, unsigned int level, ContactReport &);
+    Outcome        solve(const GrainArrays    &grains,
+                         const GrainLoads     &loads,
+                         const ContactMargins &margins,
+                         double                slack,
+                         double                wall_speed,
+                         ContactReport        &report);
+    void           move(GrainArrays &grains, double h, ContactReport &report);
+    void           substep(GrainArrays &grains, const GrainLoads &loads, double h, unsigned int level, ContactReport &);
   };
+
+
+  void ContactStepper::Implementation::find_weights(const GrainLoads &loads, const double h)
+  {
+    weight.resize(bodies.n_discs());
+    for (std::size_t k = 0; k < weight.size(); ++k)
+      weight[k] = h * (loads.fx[k] * down[0] + loads.fy[k] * down[1]);
+  }
 
 
   double ContactStepper::Implementation::root_mean_square_speed() const
@@ -97,7 +114,7 @@ namespace alluvium::grains
   ContactMargins ContactStepper::Implementation::choose_margins(const double h, const double velocity_scale) const
   {
     // Without gravity, overlaps must open also when all else has come to rest.
-    const double velocity_unit = g > 0. ? std::sqrt(g * d_min) : std::max(velocity_scale, 0.01 * d_min / base_h);
+    const double   velocity_unit = g > 0. ? std::sqrt(g * d_min) : std::max(velocity_scale, 0.01 * d_min / base_h);
     ContactMargins margins;
     margins.h          = h;
     margins.base_h     = base_h;
@@ -114,6 +131,7 @@ namespace alluvium::grains
 
   /** Solve with the contacts that are close or closing; if the solution makes others close, add them and solve on. */
   ContactStepper::Implementation::Outcome ContactStepper::Implementation::solve(const GrainArrays    &grains,
+                                                                                const GrainLoads     &loads,
                                                                                 const ContactMargins &margins,
                                                                                 double                slack,
                                                                                 const double          wall_speed,
@@ -124,6 +142,7 @@ namespace alluvium::grains
                                settings.violation_tolerance,
                                settings.loose,
                                settings.patience,
+                               false,
                                settings.max_sweeps};
     const unsigned int patience = root_mean_square_speed() > settings.moving_speed * problem.impulse_scale / mean_mass
                                     ? settings.patience
@@ -138,7 +157,14 @@ namespace alluvium::grains
         problem.discs   = bodies.free;
         problem.n_discs = problem.n_owned_discs = bodies.n_discs();
         ContactSolution &solution               = outcome.solution;
-        solution                                = solver().solve(problem, tolerance);
+        if (!keep && settings.cold_start && g > 0. && active.is_cold(margins.delta, bodies.n_discs()))
+          {
+            tolerance.at_rest = true; // also in later rounds
+            find_weights(loads, h);
+            solution = solve_cold(problem, {grains.x, grains.y, grains.radius}, {down, weight}, solver(), tolerance);
+          }
+        else
+          solution = solver().solve(problem, tolerance);
         report.n_sweeps += solution.sweeps;
         report.n_updates += static_cast<unsigned long long>(solution.sweeps) * problem.contacts.size();
         active.take_impulses(problem);
@@ -195,11 +221,11 @@ namespace alluvium::grains
     if (cohesion)
       bonds.attract(grains, geometry, *cohesion, h, std::max(margins.delta, 1e-9 * d_min), neighbours.pairs, bodies);
 
-    Outcome      outcome = solve(grains, margins, slack, wall_speed, report);
+    Outcome      outcome = solve(grains, loads, margins, slack, wall_speed, report);
     const auto   before  = sum_motion(bodies.free, bodies.n_discs());
     const double extra   = wall_speed + margins.push_out;
     const bool   runaway = has_runaway_impulse(problem, before, extra),
-                 gain    = settings.restitution > 0. && has_gained_energy(problem, before, extra);
+               gain      = settings.restitution > 0. && has_gained_energy(problem, before, extra);
     if ((!outcome.solution.converged || outcome.too_far || gain) && !runaway && level < settings.max_halvings)
       {
         ++report.n_halvings;
@@ -212,7 +238,7 @@ namespace alluvium::grains
         if (runaway)
           neighbours.drop_impulses();
         margins.gentle = true;
-        outcome        = solve(grains, margins, neighbours.slack(grains), wall_speed, report);
+        outcome        = solve(grains, loads, margins, neighbours.slack(grains), wall_speed, report);
       }
     if (!outcome.solution.converged)
       ++report.n_unconverged;
@@ -293,7 +319,8 @@ namespace alluvium::grains
     d_min                     = 2. * *r_min;
     d_max                     = 2. * *r_max;
     g                         = std::hypot(gravity[0], gravity[1]);
-    double sum                = 0.;
+    down       = g > 0. ? std::array<double, 2>{{gravity[0] / g, gravity[1] / g}} : std::array<double, 2>{};
+    double sum = 0.;
     for (const double m : grains.mass)
       sum += 1. / m;
     // harmonic: the light grains decide, and fixed ones (infinite mass) do not count

@@ -203,7 +203,51 @@ namespace alluvium::grains
 #else
     SweepColour *const best_coulomb_colour = coulomb_colour;
 #endif
+
+    ALLUVIUM_INLINE void extrapolate_discs(Disc *const discs, const std::size_t n, const double beta)
+    {
+      const Pack factor = {beta, beta, beta, 0.}; // the fourth number is no velocity
+      for (std::size_t k = 0; k < n; ++k)
+        {
+          const Pack now = load_pack(&discs[k].x), last = load_pack(&discs[k].last_x);
+          store_pack(&discs[k].x, now + factor * (now - last));
+          store_pack(&discs[k].last_x, __builtin_shufflevector(now, last, 0, 1, 2, 7));
+        }
+    }
+
+    using Extrapolate = void(Disc *, std::size_t, double);
+
+    void extrapolate_plain(Disc *const discs, const std::size_t n, const double beta)
+    {
+      extrapolate_discs(discs, n, beta);
+    }
+
+#ifdef __x86_64__
+    __attribute__((target("avx2"))) void extrapolate_avx2(Disc *const discs, const std::size_t n, const double beta)
+    {
+      extrapolate_discs(discs, n, beta);
+    }
+
+    Extrapolate *const best_extrapolate = __builtin_cpu_supports("avx2") ? extrapolate_avx2 : extrapolate_plain;
+#else
+    Extrapolate *const best_extrapolate    = extrapolate_plain;
+#endif
   } // namespace
+
+  void remember(ContactProblem &problem)
+  {
+    for (Disc &d : problem.discs)
+      {
+        d.last_x = d.x;
+        d.last_y = d.y;
+        d.last_s = d.s;
+      }
+  }
+
+  void extrapolate(ContactProblem &problem, const double beta)
+  {
+    best_extrapolate(problem.discs.data(), problem.n_discs, beta);
+  }
 
   SweepSums sweep(ContactProblem    &problem,
                   ContactMeasure    &measure,

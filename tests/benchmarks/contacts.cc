@@ -1,16 +1,19 @@
 // Cost and quality of the contact step on settled beds.
 //
 //   benchmark_contacts [--solver NAME] [--time SECONDS] [--dt DT]... [--shake V] [--fluidise A] [--set 'NAME =
-//   VALUE']... [BED.bin]...
+//   VALUE']... [--set 'SECTION/NAME = VALUE']... [--cold] [BED.bin]...
 //
 // Without beds it settles its own, of 2,000 and 10,000 discs. A bed file is int32 N, double width, then N rows of x y
 // radius vx vy spin * radius; its walls are x = 0, x = width and y = 0. --shake gives every grain a random velocity up
 // to V m/s at the start of every millisecond: the worst case. --fluidise A carries all grains with drag (relaxation
 // time 1 ms) and moves them up and down with a wave of A times their weight, as a fluidised bed would.
+// --cold shows how one step from zero velocities and unknown impulses converges, against CPU time in units of one plain
+// sweep.
 #include <alluvium/grains/contact_stepper.h>
 #include <alluvium/grains/deposit.h>
 #include <alluvium/utilities/plugin.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -95,6 +98,14 @@ namespace
     return bed;
   }
 
+  void set_walls(ContactStepper &stepper, const Bed &bed)
+  {
+    const double w = bed.width, h = 1e3 * w;
+    stepper.set_walls({{{{0., h}}, {{0., 0.}}, {{0., 0.}}, "left"},
+                       {{{0., 0.}}, {{w, 0.}}, {{0., 0.}}, "bottom"},
+                       {{{w, 0.}}, {{w, h}}, {{0., 0.}}, "right"}});
+  }
+
   void measure(const Bed         &bed,
                const std::string &solver,
                const double       dt,
@@ -109,10 +120,8 @@ namespace
     stepper.add_parameters(prm);
     prm.set("Contact solver", solver);
     prm.parse_input_from_string(set);
-    const double w = bed.width, h = 1e3 * w;
-    stepper.set_walls({{{{0., h}}, {{0., 0.}}, {{0., 0.}}, "left"},
-                       {{{0., 0.}}, {{w, 0.}}, {{0., 0.}}, "bottom"},
-                       {{{w, 0.}}, {{w, h}}, {{0., 0.}}, "right"}});
+    const double w = bed.width;
+    set_walls(stepper, bed);
     GrainLoads loads;
     loads.reset(g.n());
     double weight = 0., diameter = 0.;
@@ -183,6 +192,80 @@ namespace
       halvings,
       unconverged);
   }
+
+  struct ColdRun
+  {
+    double        seconds, support, velocity;
+    ContactReport report;
+  };
+
+  /** One step from zero velocities and impulses that ends after so many sweeps. */
+  ColdRun run_cold(const Bed &bed, const std::string &solver, const double dt, const std::string &set, const int sweeps)
+  {
+    GrainArrays g = bed.grains;
+    for (auto *v : {&g.vx, &g.vy, &g.omega})
+      std::fill(v->begin(), v->end(), 0.);
+    ContactStepper           stepper;
+    dealii::ParameterHandler prm;
+    stepper.add_parameters(prm);
+    prm.set("Contact solver", solver);
+    prm.set("Largest number of halvings", "0");
+    prm.set("Largest number of sweeps", std::to_string(sweeps));
+    prm.set("Loose factor", "1");
+    prm.set("Overlap correction", "0"); // opening overlaps would lift the bed, and the floor carry more than its weight
+    prm.parse_input_from_string(set);
+    set_walls(stepper, bed);
+    GrainLoads loads;
+    loads.reset(g.n());
+    double weight = 0.;
+    for (std::size_t k = 0; k < g.n(); ++k)
+      {
+        loads.fy[k] = -g.mass[k] * gravity;
+        weight += g.mass[k] * gravity;
+      }
+    const double t = cpu_seconds();
+    ColdRun      run;
+    run.report  = stepper.advance(g, loads, dt, {{0., -gravity}});
+    run.seconds = cpu_seconds() - t;
+    double sum  = 0.;
+    for (std::size_t k = 0; k < g.n(); ++k)
+      sum += g.vx[k] * g.vx[k] + g.vy[k] * g.vy[k];
+    run.velocity = std::sqrt(sum / g.n()) / (gravity * dt);
+    run.support  = 0.;
+    for (const auto &[name, force] : run.report.wall_force)
+      run.support -= force[1] / weight;
+    return run;
+  }
+
+  void measure_cold(const Bed &bed, const std::string &solver, const double dt, const std::string &set)
+  {
+    // What a step costs besides sweeps: two runs of plain sweeps of different lengths tell.
+    const std::string plain = set + "set Cold start = false\n";
+    const ColdRun     few   = run_cold(bed, "Gauss-Seidel", dt, plain, 20),
+                  more      = run_cold(bed, "Gauss-Seidel", dt, plain, 420);
+    const double sweep = (more.seconds - few.seconds) / 400., rest = std::max(0., few.seconds - 20. * sweep);
+    std::printf("%s dt %.0e: a plain sweep %.3f ms, %.1f ns a contact; all else in a step as long as %.0f sweeps\n"
+                "  sweeps  sweep-equivalents  of the weight on walls  residual  violation  rms velocity / g dt\n",
+                bed.name.c_str(),
+                dt,
+                1e3 * sweep,
+                1e9 * sweep * 20. / few.report.n_updates,
+                rest / sweep);
+    for (const int sweeps : {25, 50, 75, 100, 150, 200, 300, 400, 550, 700, 850, 1000, 1500, 2000, 3000})
+      {
+        const ColdRun run = run_cold(bed, solver, dt, set, sweeps);
+        std::printf("  %6llu  %17.0f  %22.4f  %.2e   %.2e  %.3e%s\n",
+                    run.report.n_sweeps,
+                    (run.seconds - rest) / sweep,
+                    run.support,
+                    run.report.residual,
+                    run.report.violation,
+                    run.velocity,
+                    run.report.n_unconverged == 0 ? "  converged" : "");
+        if (run.report.n_unconverged == 0)
+          break;
+      }
+  }
 } // namespace
 
 int main(int argc, char **argv)
@@ -191,6 +274,7 @@ int main(int argc, char **argv)
   std::string         solver = "accelerated Gauss-Seidel";
   double              time = 0.05, shake = 0., fluidise = 0.;
   std::string         set;
+  bool                cold = false;
   std::vector<double> dts;
   std::vector<Bed>    beds;
   for (int k = 1; k < argc; ++k)
@@ -203,9 +287,19 @@ int main(int argc, char **argv)
       else if (a == "--dt" && k + 1 < argc)
         dts.push_back(std::atof(argv[++k]));
       else if (a == "--set" && k + 1 < argc)
-        set += std::string("set ") + argv[++k] + "\n";
+        {
+          // "Section/Name = value" is a parameter of a subsection.
+          const std::string text = argv[++k];
+          const std::size_t cut  = text.find('/');
+          if (cut == std::string::npos)
+            set += "set " + text + "\n";
+          else
+            set += "subsection " + text.substr(0, cut) + "\nset " + text.substr(cut + 1) + "\nend\n";
+        }
       else if (a == "--fluidise" && k + 1 < argc)
         fluidise = std::atof(argv[++k]);
+      else if (a == "--cold")
+        cold = true;
       else if (a == "--shake" && k + 1 < argc)
         shake = std::atof(argv[++k]);
       else
@@ -218,5 +312,8 @@ int main(int argc, char **argv)
     dts = {1e-4, 1e-3};
   for (const Bed &bed : beds)
     for (const double dt : dts)
-      measure(bed, solver, dt, time, shake, fluidise, set);
+      if (cold)
+        measure_cold(bed, solver, dt, set);
+      else
+        measure(bed, solver, dt, time, shake, fluidise, set);
 }

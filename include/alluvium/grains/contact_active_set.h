@@ -66,6 +66,9 @@ namespace alluvium::grains
     /** Whether any pair starts with an impulse. */
     bool is_warm() const;
 
+    /** Whether this is a heap, not a few that met, of which most contacts start without an impulse. */
+    bool is_cold(double delta, std::size_t n_discs) const;
+
     /** Wall segment of contact @p k of the problem, or -1 if it is between grains. */
     std::int64_t wall_of(const std::size_t k) const { return sorted[k].wall ? std::int64_t(sorted[k].pair->j) : -1; }
 

@@ -15,9 +15,9 @@ namespace alluvium::grains
   struct alignas(64) Disc
   {
     double x = 0., y = 0., s = 0.; // velocity [m/s]
-    double inverse_mass     = 0.;  // effective, of translation [m/kg]; 0: nothing moves it
-    double inverse_rotation = 0.;  // r^2 / I [m/kg]; 0: it does not spin
+    double inverse_mass = 0.;      // effective, of translation [m/kg]; 0: nothing moves it
     double last_x = 0., last_y = 0., last_s = 0.;
+    double inverse_rotation = 0.; // r^2 / I [m/kg]; 0: it does not spin
   };
 
   /**

@@ -18,6 +18,7 @@ namespace alluvium::grains
     double       rolling_friction    = 0.;   // between grains, and with walls
     double       restitution         = 0.;   // Newton's
     double       threshold_velocity  = 0.01; // [m/s] slower impacts do not bounce
+    bool         cold_start          = true;
     bool         rotation            = true;
     double       residual_tolerance  = 1e-6;
     double       violation_tolerance = 1e-4;

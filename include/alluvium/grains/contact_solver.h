@@ -23,7 +23,8 @@ namespace alluvium::grains
     double       violation  = 1e-4; // maximum over the contacts
     double       loose      = 100.;
     unsigned int patience   = 100;
-    unsigned int max_sweeps = 2000; // then the solver gives up, and the caller takes a smaller sub-step
+    bool         at_rest    = false; // nothing is thought to move, as in a cold start
+    unsigned int max_sweeps = 2000;  // then the solver gives up, and the caller takes a smaller sub-step
 
     double allowance(const unsigned int sweeps) const
     {

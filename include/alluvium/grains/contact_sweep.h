@@ -18,9 +18,15 @@ namespace alluvium::grains
     backward
   };
 
+  /** Make the velocities those of "an iteration ago". */
+  void remember(ContactProblem &problem);
+
+  /** Move all velocities on by @p beta times their change since an iteration ago; today's become those. */
+  void extrapolate(ContactProblem &problem, double beta);
+
   /**
    * One Gauss-Seidel sweep over all contacts, colour by colour. With @p last, an impulse is first moved on by @p beta
-   * times its last change (momentum); the caller has done the same to the velocities. Collective.
+   * times its last change (momentum); extrapolate() has done the same to the velocities. Collective.
    */
   SweepSums sweep(ContactProblem &problem,
                   ContactMeasure &measure,
