@@ -108,10 +108,8 @@ namespace alluvium::grains
         sweeps *= growth;
         solution = solver.solve(problem, part);
         solution.sweeps += before;
-        if (solution.converged)
+        if (solution.converged || solution.sweeps >= tolerance.max_sweeps)
           return solution;
-        if (solution.sweeps >= tolerance.max_sweeps)
-          break;
         const double rest = blocks.unbalanced(problem);
         if (cycle > 0 && rest > falling * all)
           {
@@ -122,12 +120,5 @@ namespace alluvium::grains
           blocks.balance(problem);
         problem.discs = free;
       }
-    // Some beds cannot get rid of the stresses that a guess has put into them: they start from nothing after all.
-    for (Contact &c : problem.contacts)
-      c.rn = c.rt = 0.;
-    problem.discs                = free;
-    const ContactSolution second = solver.solve(problem, tolerance);
-    solution = {second.converged, solution.sweeps + second.sweeps, second.residual, second.violation};
-    return solution;
   }
 } // namespace alluvium::grains
