@@ -18,12 +18,12 @@ namespace alluvium::grains
             continue;
           }
         const double m = grains.mass[k], m_e = m + h * loads.drag[k];
-        const double inverse = 1. / m_e;
-        free[k]              = {(m * start[k].x + h * loads.fx[k]) * inverse,
-                                (m * start[k].y + h * loads.fy[k]) * inverse,
-                                start[k].s,
-                                inverse,
-                   rotation ? 1. / disc_inertia(m, 1.) : 0.};
+        const double inverse     = 1. / m_e;
+        free[k].x                = (m * start[k].x + h * loads.fx[k]) * inverse;
+        free[k].y                = (m * start[k].y + h * loads.fy[k]) * inverse;
+        free[k].s                = start[k].s;
+        free[k].inverse_mass     = inverse;
+        free[k].inverse_rotation = rotation ? 1. / disc_inertia(m, 1.) : 0.;
       }
   }
 

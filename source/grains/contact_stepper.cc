@@ -238,7 +238,7 @@ namespace alluvium::grains
         if (runaway)
           neighbours.drop_impulses();
         margins.gentle = true;
-        outcome        = solve(grains, loads, margins, neighbours.slack(grains), wall_speed, report);
+        outcome        = solve(grains, loads, margins, neighbours.slack(grains, geometry.periodicity), wall_speed, report);
       }
     if (!outcome.solution.converged)
       ++report.n_unconverged;

@@ -105,6 +105,7 @@ namespace alluvium::grains::test
       stepper.settings().residual_tolerance = 1e-12;
       stepper.settings().loose              = 1.;
       stepper.settings().dead_zone          = 0.;
+      stepper.settings().rest_steps         = 0;
     }
   };
 } // namespace alluvium::grains::test

@@ -3,6 +3,7 @@
 
 #include "contact_scene.h"
 
+using namespace alluvium::grains;
 using namespace alluvium::grains::test;
 
 namespace

@@ -10,6 +10,7 @@
 #include "contact_scene.h"
 
 using namespace alluvium;
+using namespace alluvium::grains;
 using namespace alluvium::grains::test;
 
 namespace
