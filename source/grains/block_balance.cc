@@ -287,8 +287,8 @@ namespace alluvium::grains
   {
     assemble(problem);
     const std::vector<double> change = solve();
-    for (Contact &c : problem.contacts)
-      if (c.rn > 0.)
+    for (std::size_t k = 0; k < problem.contacts.size(); ++k)
+      if (Contact &c = problem.contacts[k]; c.rn > 0.)
         {
           const double r      = places.radius[c.i];
           const Hats   hats   = hats_at(places.x[c.i] + r * c.nx, places.y[c.i] + r * c.ny);
@@ -300,6 +300,8 @@ namespace alluvium::grains
           factor = std::clamp(factor, smallest, largest);
           c.rn *= factor;
           c.rt *= factor;
+          if (!problem.rolling.empty())
+            problem.rolling[k].impulse *= factor;
         }
   }
 } // namespace alluvium::grains

@@ -1,6 +1,7 @@
-#include <alluvium/grains/contact_law.h>
 #include <alluvium/grains/contact_measure.h>
+#include <alluvium/grains/contact_relax.h>
 #include <alluvium/grains/contact_solver.h>
+#include <alluvium/utilities/user_error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,17 +11,7 @@ namespace alluvium::grains
   void apply_impulses(ContactProblem &problem)
   {
     for (const Contact &c : problem.contacts)
-      {
-        Disc              &disc_i = problem.discs[c.i], &disc_j = problem.discs[c.j];
-        DiscValues<double> i = values(disc_i), j = values(disc_j);
-        push(values(c), i, j, c.rn, c.rt);
-        disc_i.x = i.x;
-        disc_i.y = i.y;
-        disc_i.s = i.s;
-        disc_j.x = j.x;
-        disc_j.y = j.y;
-        disc_j.s = j.s;
-      }
+      push(problem, c, c.rn, c.rt);
     for (std::size_t k = 0; k < problem.rolling.size(); ++k)
       {
         RollingFriction &r = problem.rolling[k];
@@ -29,6 +20,13 @@ namespace alluvium::grains
       }
     if (problem.communicator != nullptr)
       problem.communicator->update_ghosts(problem.discs);
+  }
+
+  void refuse_ranks(const ContactProblem &problem, const std::string &solver)
+  {
+    check_user(problem.communicator == nullptr,
+               "Contact solver: '" + solver +
+                 "' runs on one rank only. Choose 'accelerated Gauss-Seidel', or run without mpirun.");
   }
 
   void measure_residual(const ContactMeasure &measure, ContactSolution &solution)

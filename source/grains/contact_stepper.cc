@@ -81,6 +81,7 @@ namespace alluvium::grains
     void           set_scales(const GrainArrays &grains, std::array<double, 2> gravity);
     unsigned int   count_substeps(const GrainArrays &grains, const GrainLoads &loads, double dt) const;
     void           find_weights(const GrainLoads &loads, double h);
+    void           set_heights(const GrainArrays &grains);
     double         root_mean_square_speed() const; // at the start of the sub-step
     ContactMargins choose_margins(double h, double velocity_scale) const;
     Outcome        solve(const GrainArrays    &grains,
@@ -99,6 +100,14 @@ namespace alluvium::grains
     weight.resize(bodies.n_discs());
     for (std::size_t k = 0; k < weight.size(); ++k)
       weight[k] = h * (loads.fx[k] * down[0] + loads.fy[k] * down[1]);
+  }
+
+
+  void ContactStepper::Implementation::set_heights(const GrainArrays &grains)
+  {
+    problem.height.resize(g > 0. ? bodies.n_discs() : 0);
+    for (std::size_t k = 0; k < problem.height.size(); ++k)
+      problem.height[k] = -(grains.x[k] * down[0] + grains.y[k] * down[1]);
   }
 
 
@@ -156,7 +165,8 @@ namespace alluvium::grains
         active.build(neighbours.n_colours, grains, bodies, geometry, materials, problem);
         problem.discs   = bodies.free;
         problem.n_discs = problem.n_owned_discs = bodies.n_discs();
-        ContactSolution &solution               = outcome.solution;
+        set_heights(grains);
+        ContactSolution &solution = outcome.solution;
         if (!keep && settings.cold_start && g > 0. && active.is_cold(margins.delta, bodies.n_discs()))
           {
             tolerance.at_rest = true; // also in later rounds

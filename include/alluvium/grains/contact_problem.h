@@ -68,7 +68,8 @@ namespace alluvium::grains
    */
   struct ContactProblem
   {
-    std::vector<Disc>          discs; // in: free velocities; out: with the contact impulses. Owned, ghosts, dummies
+    std::vector<Disc>          discs;    // in: free velocities; out: with the contact impulses. Owned, ghosts, dummies
+    std::vector<double>        height{}; // of all discs, against gravity [m]; empty without gravity
     std::size_t                n_discs       = 0; // owned and ghosts
     std::size_t                n_owned_discs = 0;
     std::vector<Contact>       contacts;       // in: warm impulses; out: the solution

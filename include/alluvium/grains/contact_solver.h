@@ -3,6 +3,7 @@
 #include <alluvium/grains/contact_problem.h>
 
 #include <algorithm>
+#include <string>
 
 namespace dealii
 {
@@ -60,6 +61,9 @@ namespace alluvium::grains
     virtual void            add_parameters(dealii::ParameterHandler &) {}
     virtual ContactSolution solve(ContactProblem &problem, const ContactTolerance &tolerance) const = 0;
   };
+
+  /** Throw a UserError if @p problem is spread over several ranks, which the solver named @p solver cannot handle. */
+  void refuse_ranks(const ContactProblem &problem, const std::string &solver);
 
   class ContactMeasure;
 

@@ -1,0 +1,73 @@
+#include <alluvium/grains/contact_measure.h>
+#include <alluvium/grains/contact_relax.h>
+#include <alluvium/grains/contact_solver.h>
+#include <alluvium/utilities/plugin.h>
+
+#include <algorithm>
+
+namespace alluvium::grains
+{
+  /**
+   * Projected successive over-relaxation: Gauss-Seidel sweeps that go further than each contact's own solution, then
+   * back onto its friction cone. Between plain and accelerated Gauss-Seidel, with a number to choose.
+   */
+  class OverRelaxation : public ContactSolver
+  {
+  public:
+    void add_parameters(dealii::ParameterHandler &prm) override
+    {
+      prm.add_parameter("Relaxation",
+                        relaxation,
+                        "How far each contact goes towards its own solution [-]: 1, Gauss-Seidel; more, further.",
+                        dealii::Patterns::Double(0.1, 1.99));
+    }
+
+    ContactSolution solve(ContactProblem &problem, const ContactTolerance &tolerance) const override
+    {
+      ContactSolution solution;
+      apply_impulses(problem);
+      ContactMeasure measure(problem);
+      while (solution.sweeps < tolerance.max_sweeps)
+        {
+          ContactMeasure::Sums sums = measure.begin();
+          for (unsigned int colour = 0; colour < problem.n_colours(); ++colour)
+            {
+              for (std::size_t k = problem.colour_begin[colour]; k < problem.colour_begin[colour + 1]; ++k)
+                {
+                  // As if the discs' inverse masses were smaller
+                  const double   change = relax(problem, k, 1. / relaxation, 1. / relaxation);
+                  const Contact &c      = problem.contacts[k];
+                  if (problem.counts(c))
+                    {
+                      sums.change.add(change);
+                      sums.size.add(c.rn * c.rn + c.rt * c.rt);
+                    }
+                }
+              if (problem.communicator != nullptr)
+                problem.communicator->after_colour(problem.discs, colour);
+            }
+          ++solution.sweeps;
+          if (measure.relative_change(measure.end(sums)) <=
+              relaxation * tolerance.allowance(solution.sweeps) * tolerance.residual)
+            {
+              measure_residual(measure, solution);
+              if (solution.meets(tolerance))
+                {
+                  solution.converged = true;
+                  return solution;
+                }
+            }
+        }
+      measure_residual(measure, solution);
+      return solution;
+    }
+
+  private:
+    double relaxation = 1.5;
+  };
+
+  ALLUVIUM_REGISTER(ContactSolver,
+                    OverRelaxation,
+                    "SOR",
+                    "projected successive over-relaxation: Gauss-Seidel sweeps with longer steps.")
+} // namespace alluvium::grains
