@@ -235,7 +235,7 @@ namespace alluvium::grains
     const auto   before  = sum_motion(bodies.free, bodies.n_discs());
     const double extra   = wall_speed + margins.push_out;
     const bool   runaway = has_runaway_impulse(problem, before, extra),
-               gain      = settings.restitution > 0. && has_gained_energy(problem, before, extra);
+                 gain    = materials.bounces && has_gained_energy(problem, before, extra);
     if ((!outcome.solution.converged || outcome.too_far || gain) && !runaway && level < settings.max_halvings)
       {
         ++report.n_halvings;
