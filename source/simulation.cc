@@ -247,6 +247,8 @@ namespace alluvium
                                         {"L", initial_bed.empty() ? 0. : initial_bed.top() - initial_bed.bottom()},
                                         {"d", mesh::mean_diameter(grains)},
                                         {"pi", numbers::PI}});
+        const auto periodicity = domain.periodicity();
+        space.set_periodic_box({periodicity.lower, periodicity.length});
         space.attach(*triangulation);
         transfer = std::make_unique<mesh::FieldTransfer<dim>>(space.dof_handler(), space.nodal_dof_handler());
         space.reinit(boundary_conditions);

@@ -5,6 +5,7 @@
 #include <deal.II/base/numbers.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace alluvium::coupling
 {
@@ -12,31 +13,61 @@ namespace alluvium::coupling
 
   namespace
   {
-    /** Grains sorted into square bins, so that a cell finds the discs near it. */
+    /** The grains, and their images beside a periodic box that reach into it. */
+    struct GrainImages
+    {
+      std::vector<double>       x, y;
+      std::vector<unsigned int> grain; // the one it is an image of
+
+      GrainImages(const grains::GrainArrays &grains, const double reach, const fluid::FluidSpace<2>::PeriodicBox &box)
+        : x(grains.x)
+        , y(grains.y)
+        , grain(grains.n())
+      {
+        std::iota(grain.begin(), grain.end(), 0u);
+        for (unsigned int d = 0; d < 2; ++d)
+          if (box.length[d] > 0.)
+            {
+              const std::size_t n = x.size(); // images of images in the second direction: the corners
+              for (std::size_t k = 0; k < n; ++k)
+                for (const double shift : {-box.length[d], box.length[d]})
+                  {
+                    const double moved = (d == 0 ? x[k] : y[k]) + shift;
+                    if (moved > box.lower[d] - reach && moved < box.lower[d] + box.length[d] + reach)
+                      {
+                        x.push_back(d == 0 ? moved : x[k]);
+                        y.push_back(d == 1 ? moved : y[k]);
+                        grain.push_back(grain[k]);
+                      }
+                  }
+            }
+      }
+    };
+
+    /** Discs sorted into square bins, so that a cell finds the discs near it. */
     class GrainBins
     {
     public:
-      GrainBins(const grains::GrainArrays &grains, const double width)
+      GrainBins(const std::vector<double> &x, const std::vector<double> &y, const double width)
         : width(width)
       {
-        lower = {
-          {*std::min_element(grains.x.begin(), grains.x.end()), *std::min_element(grains.y.begin(), grains.y.end())}};
+        lower = {{*std::min_element(x.begin(), x.end()), *std::min_element(y.begin(), y.end())}};
         const std::array<double, 2> upper = {
-          {*std::max_element(grains.x.begin(), grains.x.end()), *std::max_element(grains.y.begin(), grains.y.end())}};
+          {*std::max_element(x.begin(), x.end()), *std::max_element(y.begin(), y.end())}};
         for (unsigned int d = 0; d < 2; ++d)
           n[d] = 1 + static_cast<int>((upper[d] - lower[d]) / width);
         begin.assign(n[0] * n[1] + 1, 0);
-        std::vector<int> bin(grains.n());
-        for (std::size_t g = 0; g < grains.n(); ++g)
+        std::vector<int> bin(x.size());
+        for (std::size_t g = 0; g < x.size(); ++g)
           {
-            bin[g] = index(grains.y[g], 1) * n[0] + index(grains.x[g], 0);
+            bin[g] = index(y[g], 1) * n[0] + index(x[g], 0);
             ++begin[bin[g] + 1];
           }
         for (std::size_t b = 1; b < begin.size(); ++b)
           begin[b] += begin[b - 1];
-        member.resize(grains.n());
+        member.resize(x.size());
         std::vector<unsigned int> next(begin.begin(), begin.end() - 1);
-        for (std::size_t g = 0; g < grains.n(); ++g)
+        for (std::size_t g = 0; g < x.size(); ++g)
           member[next[bin[g]]++] = g;
       }
 
@@ -99,7 +130,8 @@ namespace alluvium::coupling
       radius[g] = settings.filter_radius > 0. ? 2. * settings.filter_radius * grains.radius[g] : grains.fluid_radius[g];
     const double max_radius = *std::max_element(radius.begin(), radius.end());
 
-    const GrainBins           bins(grains, max_radius);
+    const GrainImages         images(grains, max_radius, space->periodic_box());
+    const GrainBins           bins(images.x, images.y, max_radius);
     std::vector<unsigned int> candidates;
     std::vector<double>       area(grains.n(), 0.);
     for (unsigned int c = 0; c < polygons.size(); ++c)
@@ -108,9 +140,10 @@ namespace alluvium::coupling
         bins.find({{polygon.lower[0] - max_radius, polygon.lower[1] - max_radius}},
                   {{polygon.upper[0] + max_radius, polygon.upper[1] + max_radius}},
                   candidates);
-        for (const unsigned int g : candidates)
+        for (const unsigned int k : candidates)
           {
-            const geometry::Overlap o = geometry::overlap({{{grains.x[g], grains.y[g]}}, radius[g]}, polygon);
+            const unsigned int      g = images.grain[k];
+            const geometry::Overlap o = geometry::overlap({{{images.x[k], images.y[k]}}, radius[g]}, polygon);
             if (o.area > 0.)
               {
                 area[g] += o.area;

@@ -110,14 +110,25 @@ namespace alluvium::fluid
     hanging.clear();
     hanging.reinit(relevant_all);
     DoFTools::make_hanging_node_constraints(dofs, hanging);
+    make_periodic(dofs, hanging);
     hanging.close();
     nodal_hanging.clear();
     nodal_hanging.reinit(relevant_nodal);
     DoFTools::make_hanging_node_constraints(nodal_dofs, nodal_hanging);
+    make_periodic(nodal_dofs, nodal_hanging);
     nodal_hanging.close();
 
     make_constraints(boundary_conditions);
     cache_cells();
+  }
+
+
+  template <int dim>
+  void FluidSpace<dim>::make_periodic(const DoFHandler<dim> &handler, AffineConstraints<double> &constraints) const
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      if (box.length[d] > 0.)
+        DoFTools::make_periodicity_constraints(handler, 2 * d, 2 * d + 1, d, constraints);
   }
 
 
@@ -163,7 +174,9 @@ namespace alluvium::fluid
         for (const unsigned int f : cell->face_indices())
           if (cell->face(f)->at_boundary())
             {
-              const auto  id        = cell->face(f)->boundary_id();
+              const auto id = cell->face(f)->boundary_id();
+              if (box.length[id / 2 % dim] > 0.)
+                continue; // no boundary: the mesh goes on at the other side
               const auto &condition = boundary_conditions.all().at(id);
               face_values.reinit(nodal_cell, f);
               for (unsigned int v = 0; v < n_nodes; ++v)

@@ -8,6 +8,7 @@
 #include <deal.II/distributed/tria.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_in.h>
+#include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
 #include <cmath>
@@ -395,6 +396,13 @@ namespace alluvium::mesh
     for (unsigned int d = 0; d < dim; ++d)
       n[d] = std::max(1., std::round((upper_corner[d] - lower_corner[d]) / side));
     GridGenerator::subdivided_hyper_rectangle(*result, n, lower_corner, upper_corner, true);
+    std::vector<GridTools::PeriodicFacePair<typename Triangulation<dim>::cell_iterator>> pairs;
+    const auto                                                                           box = periodicity();
+    for (unsigned int d = 0; d < dim; ++d)
+      if (box.length[d] > 0.)
+        GridTools::collect_periodic_faces(*result, 2 * d, 2 * d + 1, d, pairs);
+    if (!pairs.empty())
+      result->add_periodicity(pairs);
     return result;
   }
 

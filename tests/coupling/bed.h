@@ -8,6 +8,7 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_tools.h>
 
 #include <cmath>
 
@@ -71,8 +72,8 @@ namespace bed
   {
     double      h_over_d = 1.;
     double      dt       = 1e-3;
-    double      filter   = 2.; // 0: the grain
-    bool        moments = true, lumped = true, triangles = false;
+    double      filter   = 2.;                                                      // 0: the grain
+    bool        moments = true, lumped = true, triangles = false, periodic = false; // in x
     std::string drag = "disc", scheme = "semi-implicit per grain";
   };
 
@@ -97,8 +98,18 @@ namespace bed
       else
         GridGenerator::subdivided_hyper_rectangle(tria, n, Point<2>(), Point<2>(width, height), true);
       const auto constant = [](const double p) { return std::make_shared<Functions::ConstantFunction<2>>(p); };
-      bc.set(0, {Kind::slip, "left", nullptr});
-      bc.set(1, {Kind::slip, "right", nullptr});
+      if (s.periodic)
+        {
+          std::vector<GridTools::PeriodicFacePair<Triangulation<2>::cell_iterator>> pairs;
+          GridTools::collect_periodic_faces(tria, 0, 1, 0, pairs);
+          tria.add_periodicity(pairs);
+          space.set_periodic_box({{{0., 0.}}, {{width, 0.}}});
+        }
+      else
+        {
+          bc.set(0, {Kind::slip, "left", nullptr});
+          bc.set(1, {Kind::slip, "right", nullptr});
+        }
       bc.set(2, {Kind::pressure, "bottom", constant(pressure_below)});
       bc.set(3, {Kind::pressure, "top", constant(0.)});
       settings = s;

@@ -51,6 +51,19 @@ namespace alluvium::fluid
     /** Live on @p triangulation, which must outlive this. Throws UserError for mixed cell types. */
     void attach(const dealii::Triangulation<dim> &triangulation);
 
+    /** A rectangle that repeats itself where its length is not 0 [m]. */
+    struct PeriodicBox
+    {
+      std::array<double, dim> lower{}, length{};
+    };
+
+    /**
+     * Let the fields be periodic from the next reinit() on. The mesh must be a rectangle with deal.II's colours as
+     * boundary ids, and know of its periodicity itself.
+     */
+    void               set_periodic_box(const PeriodicBox &periodic_box) { box = periodic_box; }
+    const PeriodicBox &periodic_box() const { return box; }
+
     /** Number the dofs anew; call after the mesh or the kinds of boundary conditions changed. */
     void reinit(const BoundaryConditions<dim> &boundary_conditions);
 
@@ -125,10 +138,12 @@ namespace alluvium::fluid
     const Vector &node_volumes() const { return volumes; }
 
   private:
+    void make_periodic(const dealii::DoFHandler<dim> &handler, dealii::AffineConstraints<double> &constraints) const;
     void make_constraints(const BoundaryConditions<dim> &boundary_conditions);
     void cache_cells();
 
     const dealii::Triangulation<dim>           *tria = nullptr;
+    PeriodicBox                                 box;
     std::unique_ptr<dealii::Mapping<dim>>       map;
     std::unique_ptr<dealii::FiniteElement<dim>> scalar_fe, system_fe;
     dealii::DoFHandler<dim>                     dofs, nodal_dofs;
