@@ -348,6 +348,8 @@ namespace alluvium
             gravity,
             grains_move ? &contact_report : nullptr,
             fluid_view.get(),
+            grains_move ? &contacts : nullptr,
+            folder.path(),
             communicator};
   }
 

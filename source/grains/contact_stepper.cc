@@ -40,6 +40,8 @@ namespace alluvium::grains
 
     ContactReport advance(GrainArrays &grains, const GrainLoads &loads, double dt, std::array<double, 2> gravity);
 
+    std::vector<ContactForce> forces(const GrainArrays &grains) const;
+
   private:
     /** What a sub-step came to. */
     struct Outcome
@@ -423,6 +425,41 @@ namespace alluvium::grains
   }
 
 
+  std::vector<ContactForce> ContactStepper::Implementation::forces(const GrainArrays &grains) const
+  {
+    std::vector<ContactForce> result;
+    if (!neighbours.known(grains))
+      return result;
+    const bool soft = model == "soft-sphere";
+    const auto add  = [&](const ContactPair &p, const bool wall) {
+      ContactPoint point;
+      if (p.rn == 0. && !p.bonded)
+        return;
+      if (wall && !geometry.walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point))
+        return;
+      if (!wall)
+        point = touch(grains, geometry.periodicity, p.i, p.j);
+      const double ri = grains.radius[p.i], rj = wall ? 0. : grains.radius[p.j];
+      ContactForce f{p.i, p.j, wall, point.nx, point.ny, ri + rj + point.gap, p.rn, 0.};
+      if (soft)
+        f.tangential = soft_spheres.spring_force(p);
+      else
+        {
+          f.normal     = p.rn / neighbours.substep();
+          f.tangential = p.rt / neighbours.substep();
+          if (cohesion && p.bonded)
+            f.normal -= cohesion->force(std::max(point.gap, 0.), wall ? ri : ri * rj / (ri + rj));
+        }
+      result.push_back(f);
+    };
+    for (const ContactPair &p : neighbours.pairs.discs)
+      add(p, false);
+    for (const ContactPair &p : neighbours.pairs.walls)
+      add(p, true);
+    return result;
+  }
+
+
   ContactStepper::ContactStepper()
     : implementation(std::make_unique<Implementation>())
   {}
@@ -480,6 +517,11 @@ namespace alluvium::grains
   const std::vector<std::uint8_t> &ContactStepper::touched() const
   {
     return implementation->touched;
+  }
+
+  std::vector<ContactForce> ContactStepper::forces(const GrainArrays &grains) const
+  {
+    return implementation->forces(grains);
   }
 
   void ContactStepper::forget_search()

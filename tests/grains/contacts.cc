@@ -166,6 +166,35 @@ TEST(Contacts, Stack)
     }
 }
 
+// In a stack, grain k from the top carries k weights below it and k - 1 above: r (x) f over the area.
+TEST(Contacts, StressOfAStack)
+{
+  const int n = 10;
+  Scene     s;
+  s.floor();
+  s.exact();
+  for (int k = 0; k < n; ++k)
+    s.add(0., r + k * d);
+  s.step(1e-4);
+  const double mg     = s.grains.mass[0] * g;
+  const auto   forces = s.stepper.forces(s.grains);
+  ASSERT_EQ(forces.size(), static_cast<std::size_t>(n));
+  for (const ContactForce &f : forces)
+    {
+      EXPECT_NEAR(f.normal / mg, n - (f.wall ? 0. : std::max(f.i, f.j)), 1e-8);
+      EXPECT_NEAR(f.tangential / mg, 0., 1e-8);
+      EXPECT_NEAR(f.length / r, f.wall ? 1. : 2., 1e-8);
+    }
+  const auto stress = grain_stresses(s.grains, forces);
+  for (int k = 0; k < n; ++k)
+    {
+      const double below = n - k, above = below - 1.;
+      EXPECT_NEAR(stress[k][3] / (-(below + above) * mg * r / (M_PI * r * r)), 1., 1e-8);
+      EXPECT_NEAR(stress[k][0] / (mg / r), 0., 1e-8);
+      EXPECT_NEAR(stress[k][1] / (mg / r), 0., 1e-8);
+    }
+}
+
 // With gaps that take longer than a step to cross, impacts come one after the other and the last ball leaves with all
 // the speed.
 TEST(Contacts, NewtonsCradle)

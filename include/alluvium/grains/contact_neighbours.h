@@ -32,6 +32,9 @@ namespace alluvium::grains
     /** Walls have moved by up to @p distance [m]. */
     void walls_moved(const double distance) { skin -= distance; }
 
+    /** The length of the sub-step that the impulses are of [s]. */
+    double substep() const { return warm_dt; }
+
     /** Make the impulses those of a sub-step of length @p h [s]. */
     void rescale(double h);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <alluvium/grains/contact_archive.h>
+#include <alluvium/grains/contact_force.h>
 #include <alluvium/grains/contact_report.h>
 #include <alluvium/grains/contact_settings.h>
 #include <alluvium/grains/grain_arrays.h>
@@ -60,6 +61,12 @@ namespace alluvium::grains
 
     /** Whether each grain had a contact impulse in the last advance(); n() entries of 0 or 1. */
     const std::vector<std::uint8_t> &touched() const;
+
+    /**
+     * The forces of all contacts in the last sub-step that @p grains took, cohesion included, with directions where the
+     * grains are now.
+     */
+    std::vector<ContactForce> forces(const GrainArrays &grains) const;
 
     /** Search anew in the next step: going on from here then gives the same bits as a restart from the archive. */
     void forget_search();

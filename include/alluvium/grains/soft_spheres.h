@@ -46,6 +46,9 @@ namespace alluvium::grains
                           ContactNeighbours         &neighbours,
                           std::vector<std::uint8_t> &touched);
 
+    /** What the tangential spring of @p pair carries [N/m]; its dashpot is left out. */
+    double spring_force(const ContactPair &pair) const { return -tangential_ratio * stiffness * pair.rt; }
+
     double       stiffness = 1e5, tangential_ratio = 2. / 7., restitution = 0.5;
     unsigned int steps_per_collision = 50;
 

@@ -9,6 +9,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <string>
+
 namespace alluvium::observers
 {
   /** The fluid's side of a run, for those that look at it. */
@@ -25,15 +27,17 @@ namespace alluvium::observers
   /** What an observer sees after a step. The same on all ranks, apart from the fluid's distributed fields. */
   struct Snapshot
   {
-    double                       time, dt; // [s]
-    unsigned int                 step;
-    const grains::GrainArrays   &grains;
-    const mesh::BedFaces        &initial_bed;
-    double                       left, right; // of the domain [m]
-    std::array<double, 2>        gravity;     // [m/s^2]
-    const grains::ContactReport *contacts;    // null where grains do not move, and at t = 0
-    const FluidView             *fluid;       // null in dry scenes
-    MPI_Comm                     communicator;
+    double                        time, dt; // [s]
+    unsigned int                  step;
+    const grains::GrainArrays    &grains;
+    const mesh::BedFaces         &initial_bed;
+    double                        left, right; // of the domain [m]
+    std::array<double, 2>         gravity;     // [m/s^2]
+    const grains::ContactReport  *contacts;    // null where grains do not move, and at t = 0
+    const FluidView              *fluid;       // null in dry scenes
+    const grains::ContactStepper *stepper;     // null where grains do not move
+    std::string                   folder;      // where output goes
+    MPI_Comm                      communicator;
   };
 
   /**
