@@ -142,7 +142,6 @@ namespace alluvium::fluid
       build(matrix);
     for (bool retry = true; retry;)
       {
-        report.rebuilt = fresh;
         SolverControl                                     control(max_iterations, target, false, false);
         typename SolverGMRES<BlockVector>::AdditionalData data;
         data.max_n_tmp_vectors     = 60;

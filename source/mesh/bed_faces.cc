@@ -57,6 +57,15 @@ namespace alluvium::mesh
   }
 
 
+  double BedFaces::mean_height() const
+  {
+    double sum = 0.;
+    for (const Column &column : columns)
+      sum += column.top - column.bottom;
+    return columns.empty() ? 0. : sum / columns.size();
+  }
+
+
   double BedFaces::top() const
   {
     double result = std::numeric_limits<double>::lowest();

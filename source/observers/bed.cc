@@ -33,7 +33,7 @@ namespace alluvium::observers
             fastest         = std::max(fastest, std::sqrt(v2));
             energy += 0.5 * (g.mass[i] * v2 + grains::disc_inertia(g.mass[i], g.radius[i]) * g.omega[i] * g.omega[i]);
           }
-        height = mean_height(mesh::find_bed_faces(g, s.left, s.right));
+        height = mesh::find_bed_faces(g, s.left, s.right).mean_height();
         statistics.set("bed_height_m", height);
         statistics.set("largest_grain_velocity_m_per_s", fastest);
         statistics.set("kinetic_energy_J_per_m", energy);
@@ -48,14 +48,6 @@ namespace alluvium::observers
       void conclude(Summary &summary) const override { summary.set("bed/final_height_m", height); }
 
     private:
-      static double mean_height(const mesh::BedFaces &bed)
-      {
-        double sum = 0.;
-        for (const auto &column : bed.columns)
-          sum += column.top - column.bottom;
-        return bed.columns.empty() ? 0. : sum / bed.columns.size();
-      }
-
       double height = 0.;
     };
   } // namespace

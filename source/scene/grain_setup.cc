@@ -250,12 +250,10 @@ namespace alluvium::scene
   {
     if (packing == 0.)
       return factor;
-    const auto bed  = mesh::find_bed_faces(grains, domain.lower()[0], domain.upper()[0]);
-    double     area = 0., height = 0.;
+    const double height = mesh::find_bed_faces(grains, domain.lower()[0], domain.upper()[0]).mean_height();
+    double       area   = 0.;
     for (const double r : grains.radius)
       area += dealii::numbers::PI * r * r;
-    for (const auto &column : bed.columns)
-      height += (column.top - column.bottom) / bed.columns.size();
     check_user(height > 0., "Grains/Fluid packing fraction: the grains form no bed whose packing could be chosen.");
     const double result = std::sqrt(packing * height * (domain.upper()[0] - domain.lower()[0]) / area);
     check_user(result <= 1.,

@@ -11,7 +11,6 @@ namespace alluvium::fluid
   struct LinearSolverReport
   {
     unsigned int n_iterations = 0;
-    bool         rebuilt      = false;
     bool         loose        = false; // stopped above the tolerance, at an acceptable residual
     double       residual     = 0.;    // relative to the equations' terms
   };

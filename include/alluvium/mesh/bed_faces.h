@@ -28,6 +28,9 @@ namespace alluvium::mesh
     double bottom() const;
     double top() const;
 
+    /** Mean distance of the tops from the bottoms [m], 0 for an empty bed. */
+    double mean_height() const;
+
     /** Distance [m] of the box from @p lower to @p upper to the nearest column's top, or bottom; infinite without a
      * bed. */
     double distance_to_top(const std::array<double, 2> &lower, const std::array<double, 2> &upper) const;
