@@ -1,12 +1,13 @@
 // Cost and quality of the contact step on settled beds.
 //
-//   benchmark_contacts [--solver NAME] [--time SECONDS] [--dt DT]... [--shake V] [--fluidise A] [--set 'NAME =
-//   VALUE']... [--set 'SECTION/NAME = VALUE']... [--cold] [BED.bin]...
+//   benchmark_contacts [--solver NAME] [--time SECONDS] [--dt DT]... [--shake V] [--fluidise A] [--kick V] [--set 'NAME
+//   = VALUE']... [--set 'SECTION/NAME = VALUE']... [--cold] [BED.bin]...
 //
 // Without beds it settles its own, of 2,000 and 10,000 discs. A bed file is int32 N, double width, then N rows of x y
 // radius vx vy spin * radius; its walls are x = 0, x = width and y = 0. --shake gives every grain a random velocity up
 // to V m/s at the start of every millisecond: the worst case. --fluidise A carries all grains with drag (relaxation
 // time 1 ms) and moves them up and down with a wave of A times their weight, as a fluidised bed would.
+// --kick V gives one grain in twenty a velocity of V m/s at the start.
 // --cold shows how one step from zero velocities and unknown impulses converges, against CPU time in units of one plain
 // sweep.
 #include <alluvium/grains/contact_stepper.h>
@@ -112,6 +113,7 @@ namespace
                const double       time,
                const double       shake,
                const double       fluidise,
+               const double       kick,
                const std::string &set)
   {
     GrainArrays              g = bed.grains;
@@ -146,6 +148,14 @@ namespace
               g.vx[k] = shake * (2. * (random() >> 11) * 0x1p-53 - 1.);
               g.vy[k] = shake * (2. * (random() >> 11) * 0x1p-53 - 1.);
             }
+        if (kick > 0. && s == 0)
+          for (std::size_t k = 0; k < g.n(); ++k)
+            if (random() % 20 == 0)
+              {
+                const double angle = 2. * M_PI * (random() >> 11) * 0x1p-53;
+                g.vx[k]            = kick * std::cos(angle);
+                g.vy[k]            = kick * std::sin(angle);
+              }
         if (fluidise > 0. && s >= 0)
           for (std::size_t k = 0; k < g.n(); ++k)
             {
@@ -272,7 +282,7 @@ int main(int argc, char **argv)
 {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   std::string         solver = "accelerated Gauss-Seidel";
-  double              time = 0.05, shake = 0., fluidise = 0.;
+  double              time = 0.05, shake = 0., fluidise = 0., kick = 0.;
   std::string         set;
   bool                cold = false;
   std::vector<double> dts;
@@ -300,6 +310,8 @@ int main(int argc, char **argv)
         fluidise = std::atof(argv[++k]);
       else if (a == "--cold")
         cold = true;
+      else if (a == "--kick" && k + 1 < argc)
+        kick = std::atof(argv[++k]);
       else if (a == "--shake" && k + 1 < argc)
         shake = std::atof(argv[++k]);
       else
@@ -315,5 +327,5 @@ int main(int argc, char **argv)
       if (cold)
         measure_cold(bed, solver, dt, set);
       else
-        measure(bed, solver, dt, time, shake, fluidise, set);
+        measure(bed, solver, dt, time, shake, fluidise, kick, set);
 }
