@@ -215,11 +215,6 @@ namespace alluvium::grains
     return n_discs >= 1000 && 2 * warm < closed && 2 * closed > n_discs;
   }
 
-  bool ContactActiveSet::is_warm() const
-  {
-    return std::any_of(active.begin(), active.end(), [](const Active &a) { return a.pair->rn > 0.; });
-  }
-
   void ContactActiveSet::measure_overlaps(const GrainArrays     &grains,
                                           const ContactGeometry &geometry,
                                           double                &mean,

@@ -148,22 +148,19 @@ namespace alluvium::grains
                                                                                 const double          wall_speed,
                                                                                 ContactReport        &report)
   {
-    const double       h = margins.h;
-    ContactTolerance   tolerance{settings.residual_tolerance,
+    const double h = margins.h;
+    // A bed at rest, or a cold one, is not on the move, however many sweeps it takes.
+    const bool       on_the_move = root_mean_square_speed() > settings.moving_speed * problem.impulse_scale / mean_mass;
+    ContactTolerance tolerance{settings.residual_tolerance,
                                settings.violation_tolerance,
                                settings.loose,
-                               settings.patience,
+                               on_the_move ? settings.patience : 10 * settings.patience,
                                false,
                                settings.max_sweeps};
-    const unsigned int patience = root_mean_square_speed() > settings.moving_speed * problem.impulse_scale / mean_mass
-                                    ? settings.patience
-                                    : 10 * settings.patience;
-    Outcome            outcome;
+    Outcome          outcome;
     for (bool keep = false;; keep = true)
       {
         active.select(grains, bodies, geometry, materials, margins, keep, neighbours.pairs);
-        // A cold bed is not on the move, however many sweeps it takes.
-        tolerance.patience = active.is_warm() ? patience : settings.max_sweeps;
         active.build(neighbours.n_colours, grains, bodies, geometry, materials, problem);
         problem.discs   = bodies.free;
         problem.n_discs = problem.n_owned_discs = bodies.n_discs();
@@ -237,7 +234,7 @@ namespace alluvium::grains
     const auto   before  = sum_motion(bodies.free, bodies.n_discs());
     const double extra   = wall_speed + margins.push_out;
     const bool   runaway = has_runaway_impulse(problem, before, extra),
-                 gain    = materials.bounces && has_gained_energy(problem, before, extra);
+               gain      = materials.bounces && has_gained_energy(problem, before, extra);
     if ((!outcome.solution.converged || outcome.too_far || gain) && !runaway && level < settings.max_halvings)
       {
         ++report.n_halvings;
@@ -250,7 +247,7 @@ namespace alluvium::grains
         if (runaway)
           neighbours.drop_impulses();
         margins.gentle = true;
-        outcome        = solve(grains, loads, margins, neighbours.slack(grains, geometry.periodicity), wall_speed, report);
+        outcome = solve(grains, loads, margins, neighbours.slack(grains, geometry.periodicity), wall_speed, report);
       }
     if (!outcome.solution.converged)
       ++report.n_unconverged;

@@ -63,9 +63,6 @@ namespace alluvium::grains
     /** Hand the impulses of the solved @p problem to the pairs. */
     void take_impulses(const ContactProblem &problem);
 
-    /** Whether any pair starts with an impulse. */
-    bool is_warm() const;
-
     /** Whether this is a heap, not a few that met, of which most contacts start without an impulse. */
     bool is_cold(double delta, std::size_t n_discs) const;
 
