@@ -41,7 +41,10 @@ namespace alluvium::grains
       residual_tolerance,
       "How far a contact impulse may be from its law, root mean square over all contacts, over the root mean "
       "square impulse or, if larger, that of the weight of one grain in a sub-step [-]. With much more than 1e-5 the "
-      "floor of a bed no longer carries all of its weight; with much more than 1e-6 a loaded bed creeps.",
+      "floor of a bed no longer carries all of its weight; with much more than 1e-6 a loaded bed creeps. In sub-steps "
+      "shorter than 0.2 sqrt(d/g) both tolerances are wider by the ratio, at most ten times: the speed at which the "
+      "bed "
+      "creeps is then the same.",
       Double(0.));
     prm.add_parameter("Largest violation", violation_tolerance, "The same for the worst contact [-].", Double(0.));
     prm.add_parameter("Patience",

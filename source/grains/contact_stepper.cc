@@ -150,9 +150,11 @@ namespace alluvium::grains
   {
     const double h = margins.h;
     // A bed at rest, or a cold one, is not on the move, however many sweeps it takes.
-    const bool       on_the_move = root_mean_square_speed() > settings.moving_speed * problem.impulse_scale / mean_mass;
-    ContactTolerance tolerance{settings.residual_tolerance,
-                               settings.violation_tolerance,
+    const bool on_the_move = root_mean_square_speed() > settings.moving_speed * problem.impulse_scale / mean_mass;
+    // A residual makes a bed creep, at a speed in proportion to it and to the sub-step.
+    const double     wider = g > 0. ? std::clamp(0.2 * std::sqrt(d_min / g) / h, 1., 10.) : 1.;
+    ContactTolerance tolerance{wider * settings.residual_tolerance,
+                               wider * settings.violation_tolerance,
                                settings.loose,
                                on_the_move ? settings.patience : 10 * settings.patience,
                                false,
@@ -177,7 +179,7 @@ namespace alluvium::grains
         report.n_sweeps += solution.sweeps;
         report.n_updates += static_cast<unsigned long long>(solution.sweeps) * problem.contacts.size();
         active.take_impulses(problem);
-        if (solution.converged && solution.residual > settings.residual_tolerance)
+        if (solution.converged && solution.residual > tolerance.residual)
           ++report.n_loose;
         const auto speeds = largest_speeds(problem.discs, bodies.n_discs());
         if (!std::isfinite(speeds[0]))
