@@ -102,7 +102,7 @@ namespace alluvium::grains::test
     /** Tight enough for comparison with closed forms. */
     void exact()
     {
-      stepper.settings().residual_tolerance = 1e-12;
+      stepper.settings().residual_tolerance = 1e-13;
       stepper.settings().loose              = 1.;
       stepper.settings().dead_zone          = 0.;
       stepper.settings().rest_steps         = 0;
