@@ -1,4 +1,5 @@
 #include <alluvium/grains/contact_active_set.h>
+#include <alluvium/grains/contact_reductions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -153,8 +154,11 @@ namespace alluvium::grains
     // begin[c] has become the end of colour c
     problem.colour_begin.assign(1, 0);
     problem.colour_begin.insert(problem.colour_begin.end(), begin.begin(), begin.end() - 1);
-    while (problem.n_colours() > 0 && problem.colour_begin.end()[-2] == active.size())
-      problem.colour_begin.pop_back();
+    // Colours at the end that are empty on all ranks are none.
+    std::size_t n_used = problem.n_colours();
+    while (n_used > 0 && problem.colour_begin[n_used - 1] == active.size())
+      --n_used;
+    problem.colour_begin.resize(max_over_ranks(problem.communicator, n_used) + 1);
 
     problem.contacts.resize(active.size());
     problem.rolling.resize(materials.rolls ? active.size() : 0);
@@ -202,45 +206,51 @@ namespace alluvium::grains
       }
   }
 
-  bool ContactActiveSet::is_cold(const double delta, const std::size_t n_discs) const
+  bool ContactActiveSet::is_cold(const double delta, const std::size_t n_discs, const ContactProblem &problem) const
   {
     std::size_t closed = 0, warm = 0;
     for (const Active &a : active)
-      if (a.point.gap <= delta)
+      if (a.point.gap <= delta && a.pair->i < problem.n_owned_discs)
         {
           ++closed;
           warm += a.pair->rn > 0.;
         }
+    closed = count_over_ranks(problem.communicator, closed);
+    warm   = count_over_ranks(problem.communicator, warm);
     // Of a bed at rest with known impulses, a third of the closed contacts carry none. And a small one needs no help.
     return n_discs >= 1000 && 2 * warm < closed && 2 * closed > n_discs;
   }
 
   void ContactActiveSet::measure_overlaps(const GrainArrays     &grains,
                                           const ContactGeometry &geometry,
+                                          const ContactProblem  &problem,
                                           double                &mean,
                                           double                &largest) const
   {
-    std::size_t n = 0;
-    mean = largest = 0.;
-    for (const Active &a : sorted)
+    std::vector<double> overlaps;
+    largest = 0.;
+    for (std::size_t k = 0; k < sorted.size(); ++k)
       {
-        const ContactPair &p   = *a.pair;
+        const ContactPair &p   = *sorted[k].pair;
         double             gap = 0.;
         ContactPoint       point;
-        if (!a.wall)
-          {
-            gap = touch(grains, geometry.periodicity, p.i, p.j).gap;
-          }
+        if (!problem.counts(problem.contacts[k]))
+          continue;
+        if (!sorted[k].wall)
+          gap = touch(grains, geometry.periodicity, p.i, p.j).gap;
         else if (geometry.walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point))
           gap = point.gap;
         if (gap < 0.)
           {
-            ++n;
-            mean -= gap;
+            overlaps.push_back(-gap);
             largest = std::max(largest, -gap);
           }
       }
-    if (n > 0)
-      mean /= n;
+    largest               = max_over_ranks(problem.communicator, largest);
+    const std::size_t n   = count_over_ranks(problem.communicator, overlaps.size());
+    const double      sum = sum_over_ranks<1>(problem.communicator, overlaps.size(), n, [&](const std::size_t k) {
+      return std::array<double, 1>{{overlaps[k]}};
+    })[0];
+    mean                  = n > 0 ? sum / n : 0.;
   }
 } // namespace alluvium::grains

@@ -1,5 +1,6 @@
 #include <alluvium/grains/contact_colouring.h>
 #include <alluvium/grains/contact_neighbours.h>
+#include <alluvium/grains/contact_reductions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,11 +23,21 @@ namespace alluvium::grains
     searched_id = grains.id;
     searched_x  = grains.x;
     searched_y  = grains.y;
+    n_owned     = grains.n();
     this->skin  = skin;
     searched    = true;
     carry(grains, pairs.discs, false);
     carry(grains, pairs.walls, true);
     pending.entries.clear();
+  }
+
+  void ContactNeighbours::keep(ContactCandidates share, const GrainArrays &grains, const std::size_t n_owned)
+  {
+    pairs         = std::move(share);
+    searched_id   = grains.id;
+    searched_x    = grains.x;
+    searched_y    = grains.y;
+    this->n_owned = n_owned;
   }
 
   void ContactNeighbours::carry(const GrainArrays &grains, std::vector<ContactPair> &found, const bool wall) const
@@ -65,10 +76,12 @@ namespace alluvium::grains
     pairs    = {};
   }
 
-  double ContactNeighbours::slack(const GrainArrays &grains, const Periodicity &periodicity) const
+  double ContactNeighbours::slack(const GrainArrays   &grains,
+                                  const Periodicity   &periodicity,
+                                  ContactCommunicator *communicator) const
   {
     double first = 0., second = 0.;
-    for (std::size_t k = 0; k < grains.n(); ++k)
+    for (std::size_t k = 0; k < n_owned; ++k)
       {
         double dx = grains.x[k] - searched_x[k], dy = grains.y[k] - searched_y[k];
         periodicity.shorten(dx, dy);
@@ -81,7 +94,8 @@ namespace alluvium::grains
         else if (d > second)
           second = d;
       }
-    return skin - (std::sqrt(first) + std::sqrt(second));
+    const auto [farthest, next] = largest_over_ranks(communicator, {{first, second}});
+    return skin - (std::sqrt(farthest) + std::sqrt(next));
   }
 
   void ContactNeighbours::rescale(const double h)
@@ -117,7 +131,7 @@ namespace alluvium::grains
     ContactArchive result;
     result.dt = warm_dt;
     for (const ContactPair &p : pairs.discs)
-      if (p.rn != 0. || p.bonded)
+      if (p.i < n_owned && (p.rn != 0. || p.bonded))
         result.entries.push_back({searched_id[p.i], searched_id[p.j], false, p.bonded, p.rn, p.rt, p.rr});
     for (const ContactPair &p : pairs.walls)
       if (p.rn != 0. || p.bonded)

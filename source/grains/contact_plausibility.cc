@@ -1,29 +1,30 @@
 #include <alluvium/grains/contact_plausibility.h>
+#include <alluvium/grains/contact_reductions.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace alluvium::grains
 {
-  MotionSums sum_motion(const std::vector<Disc> &discs, const std::size_t n)
+  MotionSums sum_motion(const std::vector<Disc> &discs,
+                        const std::size_t        n,
+                        const std::size_t        n_all,
+                        ContactCommunicator     *communicator)
   {
-    MotionSums sums;
-    for (std::size_t k = 0; k < n; ++k)
-      {
-        const Disc &v = discs[k];
-        if (v.inverse_mass == 0.)
-          continue;
-        const double square = v.x * v.x + v.y * v.y, mass = 1. / v.inverse_mass;
-        sums.mass += mass;
-        sums.momentum += mass * std::sqrt(square);
-        sums.energy += 0.5 * mass * square;
-        if (v.inverse_rotation > 0.)
-          {
-            sums.momentum += std::abs(v.s) / v.inverse_rotation;
-            sums.energy += 0.5 * v.s * v.s / v.inverse_rotation;
-          }
-      }
-    return sums;
+    const auto sums = sum_over_ranks<3>(communicator, n, n_all, [&](const std::size_t k) -> std::array<double, 3> {
+      const Disc &v = discs[k];
+      if (v.inverse_mass == 0.)
+        return {};
+      const double square = v.x * v.x + v.y * v.y, mass = 1. / v.inverse_mass;
+      double       momentum = mass * std::sqrt(square), energy = 0.5 * mass * square;
+      if (v.inverse_rotation > 0.)
+        {
+          momentum += std::abs(v.s) / v.inverse_rotation;
+          energy += 0.5 * v.s * v.s / v.inverse_rotation;
+        }
+      return {{mass, momentum, energy}};
+    });
+    return {sums[0], sums[1], sums[2]};
   }
 
   bool has_runaway_impulse(const ContactProblem &problem, const MotionSums &before, const double extra)
@@ -31,12 +32,16 @@ namespace alluvium::grains
     double largest = 0.;
     for (const Contact &c : problem.contacts)
       largest = std::max(largest, c.rn);
-    return largest > 30. * (before.momentum + before.mass * extra);
+    return max_over_ranks(problem.communicator, largest) > 30. * (before.momentum + before.mass * extra);
   }
 
-  bool has_gained_energy(const ContactProblem &problem, const MotionSums &before, const double extra)
+  bool has_gained_energy(const ContactProblem &problem,
+                         const std::size_t     n_all,
+                         const MotionSums     &before,
+                         const double          extra)
   {
-    const double allowed = before.energy + before.mass * extra * extra;
-    return sum_motion(problem.discs, problem.n_discs).energy > allowed * (1. + 1e-9);
+    const double     allowed = before.energy + before.mass * extra * extra;
+    const MotionSums after   = sum_motion(problem.discs, problem.n_owned_discs, n_all, problem.communicator);
+    return after.energy > allowed * (1. + 1e-9);
   }
 } // namespace alluvium::grains

@@ -108,5 +108,10 @@ namespace alluvium::grains
       "Pairs nearer than this fraction of the largest diameter are remembered between contact searches [-]. Costs "
       "time; changes results only within the tolerance, by the order in which contacts are solved.",
       Double(1e-3));
+    prm.add_parameter("Least grains a rank",
+                      least_share,
+                      "MPI ranks share the work of contacts if each gets this many grains; below, messages would cost "
+                      "more than they save, and every rank does all. Results have the same bits either way.",
+                      Integer(1));
   }
 } // namespace alluvium::grains

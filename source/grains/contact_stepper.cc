@@ -6,7 +6,9 @@
 #include <alluvium/grains/contact_material.h>
 #include <alluvium/grains/contact_neighbours.h>
 #include <alluvium/grains/contact_plausibility.h>
+#include <alluvium/grains/contact_reductions.h>
 #include <alluvium/grains/contact_search.h>
+#include <alluvium/grains/contact_share.h>
 #include <alluvium/grains/contact_solver.h>
 #include <alluvium/grains/contact_stepper.h>
 #include <alluvium/grains/rest.h>
@@ -38,9 +40,19 @@ namespace alluvium::grains
     Rest                        rest;
     std::vector<std::uint8_t>   touched;
 
+    std::unique_ptr<ContactShare> share; // none on one rank
+
     ContactReport advance(GrainArrays &grains, const GrainLoads &loads, double dt, std::array<double, 2> gravity);
 
     std::vector<ContactForce> forces(const GrainArrays &grains) const;
+
+    void set_communicator(const MPI_Comm communicator)
+    {
+      set_shared(false);
+      share = std::make_unique<ContactShare>(communicator);
+    }
+
+    ContactArchive archive() const { return shared ? share->collect(neighbours.archive()) : neighbours.archive(); }
 
   private:
     /** What a sub-step came to. */
@@ -59,17 +71,31 @@ namespace alluvium::grains
     ContactActiveSet    active;
     ContactBonds        bonds;
     std::vector<double> sub_px, sub_py, sub_ps; // impulses on the grains [N s/m]
-    std::vector<double> weight;                 // what the loads give each grain along gravity [N s/m]
+    struct WallImpulse
+    {
+      std::size_t           wall;
+      std::array<double, 2> impulse;
+    };
+    std::vector<WallImpulse> on_walls; // from each contact [N s/m]
+    std::vector<double>      weight;   // what the loads give each grain along gravity [N s/m]
 
     // Scratch of a step.
     ContactMaterials                   materials;
     const Cohesion                    *cohesion = nullptr; // none
-    std::vector<double>                px, py;             // impulses on the grains, summed over the sub-steps
-    std::vector<std::array<double, 2>> wall_impulse;
-    double                             base_h = 0.; // length of an unhalved sub-step
+    std::vector<std::array<double, 2>> wall_impulse;       // of each segment, over the sub-steps [N s/m]
+    double                             base_h = 0.;        // length of an unhalved sub-step
     double                             d_min = 0., d_max = 0., mean_mass = 0., g = 0.;
     std::array<double, 2>              down{}; // unit vector of gravity
-    std::array<double, 2>              gravity{};
+
+    // All grains, of which a rank that shares them with others moves a part; see ContactShare.
+    GrainArrays      *all       = nullptr;
+    const GrainLoads *all_loads = nullptr;
+    bool              shared    = false;
+
+    std::size_t          n_owned() const { return shared ? share->n_owned() : all->n(); }
+    ContactCommunicator *communicator() const { return shared ? &share->exchange() : nullptr; }
+    void                 set_shared(bool now);
+    void                 search(double h, double slack);
 
     const ContactSolver &solver() const
     {
@@ -84,7 +110,7 @@ namespace alluvium::grains
     unsigned int   count_substeps(const GrainArrays &grains, const GrainLoads &loads, double dt) const;
     void           find_weights(const GrainLoads &loads, double h);
     void           set_heights(const GrainArrays &grains);
-    double         root_mean_square_speed() const; // at the start of the sub-step
+    double         root_mean_square_speed() const; // at the start of the sub-step, of all grains
     ContactMargins choose_margins(double h, double velocity_scale) const;
     Outcome        solve(const GrainArrays    &grains,
                          const GrainLoads     &loads,
@@ -93,6 +119,7 @@ namespace alluvium::grains
                          double                wall_speed,
                          ContactReport        &report);
     void           move(GrainArrays &grains, double h, ContactReport &report);
+    void           add_wall_impulses();
     void           substep(GrainArrays &grains, const GrainLoads &loads, double h, unsigned int level, ContactReport &);
   };
 
@@ -115,10 +142,39 @@ namespace alluvium::grains
 
   double ContactStepper::Implementation::root_mean_square_speed() const
   {
-    double mean_square = 0.;
-    for (const Disc &v : bodies.start)
-      mean_square += (v.x * v.x + v.y * v.y) / bodies.n_discs();
-    return std::sqrt(mean_square);
+    const auto sum = sum_over_ranks<1>(communicator(), n_owned(), all->n(), [&](const std::size_t k) {
+      const Disc &v = bodies.start[k];
+      return std::array<double, 1>{{v.x * v.x + v.y * v.y}};
+    });
+    return std::sqrt(sum[0] / all->n());
+  }
+
+
+  void ContactStepper::Implementation::set_shared(const bool now)
+  {
+    if (shared && !now)
+      neighbours.set_archive(archive());
+    shared = now;
+  }
+
+
+  /** Find the pairs anew. With several ranks, also who owns what: the grains' arrays and the bodies change then. */
+  void ContactStepper::Implementation::search(const double h, const double slack)
+  {
+    if (!shared)
+      {
+        neighbours.search(*all, geometry, slack);
+        return;
+      }
+    share->collect(*all, touched);
+    neighbours.set_archive(archive());
+    neighbours.search(*all, geometry, slack);
+    const auto was_touched = touched;
+    neighbours.keep(
+      share->divide(*all, *all_loads, neighbours.pairs, neighbours.n_colours), share->grains, share->n_owned());
+    for (std::size_t k = 0; k < share->touched.size(); ++k)
+      share->touched[k] = was_touched[share->number_of(k)];
+    bodies.set(share->grains, share->loads, h, settings.rotation);
   }
 
 
@@ -160,15 +216,17 @@ namespace alluvium::grains
                                false,
                                settings.max_sweeps};
     Outcome          outcome;
+    problem.communicator  = communicator();
+    problem.n_owned_discs = n_owned();
     for (bool keep = false;; keep = true)
       {
         active.select(grains, bodies, geometry, materials, margins, keep, neighbours.pairs);
         active.build(neighbours.n_colours, grains, bodies, geometry, materials, problem);
         problem.discs   = bodies.free;
-        problem.n_discs = problem.n_owned_discs = bodies.n_discs();
+        problem.n_discs = bodies.n_discs();
         set_heights(grains);
         ContactSolution &solution = outcome.solution;
-        if (!keep && settings.cold_start && g > 0. && active.is_cold(margins.delta, bodies.n_discs()))
+        if (!keep && settings.cold_start && g > 0. && active.is_cold(margins.delta, all->n(), problem))
           {
             tolerance.at_rest = true; // also in later rounds
             find_weights(loads, h);
@@ -177,11 +235,11 @@ namespace alluvium::grains
         else
           solution = solver().solve(problem, tolerance);
         report.n_sweeps += solution.sweeps;
-        report.n_updates += static_cast<unsigned long long>(solution.sweeps) * problem.contacts.size();
+        report.n_updates += static_cast<unsigned long long>(solution.sweeps) * problem.n_counted();
         active.take_impulses(problem);
         if (solution.converged && solution.residual > tolerance.residual)
           ++report.n_loose;
-        const auto speeds = largest_speeds(problem.discs, bodies.n_discs());
+        const auto speeds = largest_over_ranks(communicator(), largest_speeds(problem.discs, n_owned()));
         if (!std::isfinite(speeds[0]))
           throw std::runtime_error("A grain velocity is not a finite number after the contact solve.");
         outcome.speed   = speeds[0];
@@ -192,11 +250,29 @@ namespace alluvium::grains
         if (reach > slack)
           {
             slack = 1.2 * reach;
-            neighbours.search(grains, geometry, slack);
+            std::vector<double> velocity;
+            if (shared)
+              {
+                for (std::size_t k = 0; k < n_owned(); ++k)
+                  velocity.insert(velocity.end(), {problem.discs[k].x, problem.discs[k].y});
+                velocity = share->collect_rows(velocity, 2);
+              }
+            search(h, slack);
+            if (shared)
+              {
+                problem.n_owned_discs = n_owned();
+                problem.discs         = bodies.free;
+                for (std::size_t k = 0; k < bodies.n_discs(); ++k)
+                  {
+                    problem.discs[k].x = velocity[2 * share->number_of(k)];
+                    problem.discs[k].y = velocity[2 * share->number_of(k) + 1];
+                  }
+              }
             active.restart_from_impulses(neighbours.pairs);
             active.add_violated(grains, bodies, geometry, problem.discs, h, neighbours.pairs);
           }
-        else if (!active.add_violated(grains, bodies, geometry, problem.discs, h, neighbours.pairs))
+        else if (!any_over_ranks(communicator(),
+                                 active.add_violated(grains, bodies, geometry, problem.discs, h, neighbours.pairs)))
           return outcome;
       }
   }
@@ -210,10 +286,11 @@ namespace alluvium::grains
     const double wall_speed = geometry.walls.largest_speed();
 
     // Scales: what gravity does in the sub-step; without gravity, what moves.
-    const auto speeds         = largest_speeds(bodies.start, bodies.n_discs());
+    const auto speeds         = largest_over_ranks(communicator(), largest_speeds(bodies.start, n_owned()));
     double     velocity_scale = g * h;
     if (!(velocity_scale > 0.))
-      velocity_scale = std::max({speeds[0], largest_speeds(bodies.free, bodies.n_discs())[0], wall_speed});
+      velocity_scale =
+        std::max({speeds[0], max_over_ranks(communicator(), largest_speeds(bodies.free, n_owned())[0]), wall_speed});
     if (!(velocity_scale > 0.))
       velocity_scale = 1e-3 * d_min / h;
     problem.impulse_scale  = mean_mass * velocity_scale;
@@ -221,22 +298,23 @@ namespace alluvium::grains
 
     neighbours.rescale(h);
     const double reach    = h * (speeds[0] + speeds[1] + wall_speed + 2. * g * h);
-    double       slack    = neighbours.known(grains) ? neighbours.slack(grains, geometry.periodicity) : -1.;
+    const bool   known    = !any_over_ranks(communicator(), !neighbours.known(grains));
+    double       slack    = known ? neighbours.slack(grains, geometry.periodicity, communicator()) : -1.;
     const double nearness = std::max(margins.nearness, cohesion ? cohesion->reach(0.5 * d_max) : 0.);
     if (slack < nearness + reach)
       {
         slack = std::max(settings.skin * d_max + nearness - margins.nearness, 1.2 * reach + nearness);
-        neighbours.search(grains, geometry, slack);
+        search(h, slack);
       }
 
     if (cohesion)
       bonds.attract(grains, geometry, *cohesion, h, std::max(margins.delta, 1e-9 * d_min), neighbours.pairs, bodies);
 
     Outcome      outcome = solve(grains, loads, margins, slack, wall_speed, report);
-    const auto   before  = sum_motion(bodies.free, bodies.n_discs());
+    const auto   before  = sum_motion(bodies.free, n_owned(), all->n(), communicator());
     const double extra   = wall_speed + margins.push_out;
     const bool   runaway = has_runaway_impulse(problem, before, extra),
-               gain      = materials.bounces && has_gained_energy(problem, before, extra);
+               gain      = materials.bounces && has_gained_energy(problem, all->n(), before, extra);
     if ((!outcome.solution.converged || outcome.too_far || gain) && !runaway && level < settings.max_halvings)
       {
         ++report.n_halvings;
@@ -249,7 +327,8 @@ namespace alluvium::grains
         if (runaway)
           neighbours.drop_impulses();
         margins.gentle = true;
-        outcome = solve(grains, loads, margins, neighbours.slack(grains, geometry.periodicity), wall_speed, report);
+        slack          = neighbours.slack(grains, geometry.periodicity, communicator());
+        outcome        = solve(grains, loads, margins, slack, wall_speed, report);
       }
     if (!outcome.solution.converged)
       ++report.n_unconverged;
@@ -269,16 +348,17 @@ namespace alluvium::grains
   /** Final velocities from the impulses themselves, so that momentum is balanced to round-off. */
   void ContactStepper::Implementation::move(GrainArrays &grains, const double h, ContactReport &report)
   {
-    const std::size_t n = bodies.n_discs();
     for (auto *sum : {&sub_px, &sub_py, &sub_ps})
-      sum->assign(n + ContactBodies::n_dummies, 0.);
-    report.n_contacts = 0;
+      sum->assign(bodies.n_discs() + ContactBodies::n_dummies, 0.);
+    std::vector<std::uint8_t> &touches = shared ? share->touched : touched;
+    report.n_contacts                  = 0;
+    on_walls.clear();
     for (std::size_t k = 0; k < problem.contacts.size(); ++k)
       {
         const Contact &c = problem.contacts[k];
         if (c.rn == 0. && c.rt == 0.)
           continue;
-        ++report.n_contacts;
+        report.n_contacts += problem.counts(c);
         const double ix = c.rn * c.nx - c.rt * c.ny, iy = c.rn * c.ny + c.rt * c.nx;
         sub_px[c.i] -= ix;
         sub_py[c.i] -= iy;
@@ -291,17 +371,15 @@ namespace alluvium::grains
             sub_ps[c.i] -= problem.rolling[k].lever_i * problem.rolling[k].impulse;
             sub_ps[c.j] += problem.rolling[k].lever_j * problem.rolling[k].impulse;
           }
-        touched[c.i]            = 1;
+        touches[c.i]            = 1;
         const std::int64_t wall = active.wall_of(k);
         if (wall >= 0)
-          {
-            wall_impulse[wall][0] += ix;
-            wall_impulse[wall][1] += iy;
-          }
+          on_walls.push_back({static_cast<std::size_t>(wall), {{ix, iy}}});
         else
-          touched[c.j] = 1;
+          touches[c.j] = 1;
       }
-    for (std::size_t k = 0; k < n; ++k)
+    add_wall_impulses();
+    for (std::size_t k = 0; k < n_owned(); ++k)
       {
         grains.vx[k] = bodies.free[k].x + bodies.free[k].inverse_mass * sub_px[k];
         grains.vy[k] = bodies.free[k].y + bodies.free[k].inverse_mass * sub_py[k];
@@ -309,18 +387,48 @@ namespace alluvium::grains
           grains.omega[k] += bodies.free[k].inverse_rotation * sub_ps[k] / grains.radius[k];
         grains.x[k] += h * grains.vx[k];
         grains.y[k] += h * grains.vy[k];
-        px[k] += sub_px[k];
-        py[k] += sub_py[k];
+        grains.fcx[k] += sub_px[k];
+        grains.fcy[k] += sub_py[k];
       }
     wrap_into_box(grains, geometry.periodicity);
+    if (shared)
+      share->update_ghosts();
     for (std::size_t k = 0; k < bonds.on_grain.size(); ++k)
       {
-        px[k] += bonds.on_grain[k][0];
-        py[k] += bonds.on_grain[k][1];
+        grains.fcx[k] += bonds.on_grain[k][0];
+        grains.fcy[k] += bonds.on_grain[k][1];
       }
     for (std::size_t k = 0; k < bonds.on_wall.size(); ++k)
       for (unsigned int d = 0; d < 2; ++d)
         wall_impulse[k][d] += bonds.on_wall[k][d];
+  }
+
+
+  /** Sum what each wall got in a sub-step; as sum_over_ranks(), but all walls at once. */
+  void ContactStepper::Implementation::add_wall_impulses()
+  {
+    if (wall_impulse.empty())
+      return;
+    const std::size_t                  n_all = count_over_ranks(communicator(), on_walls.size());
+    std::vector<std::array<double, 2>> sums(wall_impulse.size(), {{0., 0.}});
+    for (const WallImpulse &p : on_walls)
+      for (unsigned int d = 0; d < 2; ++d)
+        sums[p.wall][d] = std::max(sums[p.wall][d], std::abs(p.impulse[d]));
+    if (shared)
+      communicator()->max(sums[0].data(), 2 * sums.size());
+    std::vector<std::array<double, 2>> shifts(sums.size());
+    for (std::size_t w = 0; w < sums.size(); ++w)
+      for (unsigned int d = 0; d < 2; ++d)
+        shifts[w][d] = ReproducibleSum(n_all * sums[w][d]).unit_shift();
+    sums.assign(sums.size(), {{0., 0.}});
+    for (const WallImpulse &p : on_walls)
+      for (unsigned int d = 0; d < 2; ++d)
+        sums[p.wall][d] += (p.impulse[d] + shifts[p.wall][d]) - shifts[p.wall][d];
+    if (shared)
+      communicator()->sum(sums[0].data(), 2 * sums.size());
+    for (std::size_t w = 0; w < sums.size(); ++w)
+      for (unsigned int d = 0; d < 2; ++d)
+        wall_impulse[w][d] += sums[w][d];
   }
 
 
@@ -399,18 +507,36 @@ namespace alluvium::grains
     if (geometry.walls.largest_speed() == 0. && rest.holds(grains, loads, scales))
       return rest.stand_still(loads, grains, touched);
 
-    px.assign(n, 0.);
-    py.assign(n, 0.);
     wall_impulse.assign(geometry.walls.segments().size(), {{0., 0.}});
     const unsigned int steps = count_substeps(grains, loads, dt);
     base_h                   = dt / steps;
+    // Until the end, contact forces are impulses, summed over the sub-steps.
+    grains.fcx.assign(n, 0.);
+    grains.fcy.assign(n, 0.);
+    all       = &grains;
+    all_loads = &loads;
+    // Bonds are summed pair by pair in the order of all grains, so cohesion is every rank's own.
+    set_shared(share && share->n_ranks() > 1 && !cohesion && n >= settings.least_share * share->n_ranks());
+    if (shared && share->fits(grains))
+      share->load(grains, loads);
+    else if (shared)
+      share->divide(grains, loads, {}, 0);
     for (unsigned int s = 0; s < steps; ++s)
-      substep(grains, loads, base_h, 0, report);
+      if (shared)
+        substep(share->grains, share->loads, base_h, 0, report);
+      else
+        substep(grains, loads, base_h, 0, report);
+    active.measure_overlaps(
+      shared ? share->grains : grains, geometry, problem, report.mean_penetration, report.max_penetration);
+    report.n_contacts = count_over_ranks(communicator(), report.n_contacts);
+    report.n_updates  = count_over_ranks(communicator(), report.n_updates);
+    if (shared)
+      share->collect(grains, touched);
 
     for (std::size_t k = 0; k < n; ++k)
       {
-        grains.fcx[k] = px[k] / dt;
-        grains.fcy[k] = py[k] / dt;
+        grains.fcx[k] /= dt;
+        grains.fcy[k] /= dt;
       }
     for (std::size_t k = 0; k < wall_impulse.size(); ++k)
       {
@@ -418,7 +544,6 @@ namespace alluvium::grains
         force[0] += wall_impulse[k][0] / dt;
         force[1] += wall_impulse[k][1] / dt;
       }
-    active.measure_overlaps(grains, geometry, report.mean_penetration, report.max_penetration);
     rest.watch(grains, loads, scales, touched, report);
     return report;
   }
@@ -427,7 +552,7 @@ namespace alluvium::grains
   std::vector<ContactForce> ContactStepper::Implementation::forces(const GrainArrays &grains) const
   {
     std::vector<ContactForce> result;
-    if (!neighbours.known(grains))
+    if ((shared && !share->fits(grains)) || !neighbours.known(shared ? share->grains : grains))
       return result;
     const bool soft = model == "soft-sphere";
     const auto add  = [&](const ContactPair &p, const bool wall) {
@@ -451,6 +576,22 @@ namespace alluvium::grains
         }
       result.push_back(f);
     };
+    if (shared)
+      {
+        const auto number = [&](const GrainId id) {
+          return static_cast<std::uint32_t>(std::lower_bound(grains.id.begin(), grains.id.end(), id) -
+                                            grains.id.begin());
+        };
+        for (const ContactArchive::Entry &e : archive().entries)
+          {
+            ContactPair p{number(e.a), e.wall ? ~e.b : number(e.b)};
+            p.bonded = e.bonded;
+            p.rn     = e.rn;
+            p.rt     = e.rt;
+            add(p, e.wall);
+          }
+        return result;
+      }
     for (const ContactPair &p : neighbours.pairs.discs)
       add(p, false);
     for (const ContactPair &p : neighbours.pairs.walls)
@@ -513,6 +654,16 @@ namespace alluvium::grains
     return implementation->advance(grains, loads, dt, gravity);
   }
 
+  void ContactStepper::set_communicator(const MPI_Comm communicator)
+  {
+    implementation->set_communicator(communicator);
+  }
+
+  ContactTraffic ContactStepper::traffic() const
+  {
+    return implementation->share ? implementation->share->traffic() : ContactTraffic();
+  }
+
   const std::vector<std::uint8_t> &ContactStepper::touched() const
   {
     return implementation->touched;
@@ -531,7 +682,7 @@ namespace alluvium::grains
 
   ContactArchive ContactStepper::archive() const
   {
-    ContactArchive result = implementation->neighbours.archive();
+    ContactArchive result = implementation->archive();
     result.wall_positions = implementation->geometry.walls.positions();
     return result;
   }

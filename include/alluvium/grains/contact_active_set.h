@@ -43,7 +43,7 @@ namespace alluvium::grains
 
     /**
      * Let those take part in the next select() that overlap at the end of the sub-step with velocities @p velocity;
-     * whether there are any.
+     * whether there are any on this rank.
      */
     bool add_violated(const GrainArrays       &grains,
                       const ContactBodies     &bodies,
@@ -52,7 +52,10 @@ namespace alluvium::grains
                       double                   h,
                       const ContactCandidates &candidates);
 
-    /** Write the contacts of @p problem, warm impulses included, in the order of their pairs' @p n_colours colours. */
+    /**
+     * Write the contacts of @p problem, warm impulses included, in the order of their pairs' @p n_colours colours.
+     * Collective over the problem's communicator.
+     */
     void build(unsigned int            n_colours,
                const GrainArrays      &grains,
                const ContactBodies    &bodies,
@@ -63,15 +66,21 @@ namespace alluvium::grains
     /** Hand the impulses of the solved @p problem to the pairs. */
     void take_impulses(const ContactProblem &problem);
 
-    /** Whether this is a heap, not a few that met, of which most contacts start without an impulse. */
-    bool is_cold(double delta, std::size_t n_discs) const;
+    /**
+     * Whether this is a heap, not a few that met, of which most contacts start without an impulse. There are @p n_discs
+     * on all ranks. Collective.
+     */
+    bool is_cold(double delta, std::size_t n_discs, const ContactProblem &problem) const;
 
     /** Wall segment of contact @p k of the problem, or -1 if it is between grains. */
     std::int64_t wall_of(const std::size_t k) const { return sorted[k].wall ? std::int64_t(sorted[k].pair->j) : -1; }
 
-    /** Mean and largest overlap of the contacts, with the grains where they are now [m]. */
-    void
-    measure_overlaps(const GrainArrays &grains, const ContactGeometry &geometry, double &mean, double &largest) const;
+    /** Mean and largest overlap of the contacts of @p problem, with the grains where they are now [m]. Collective. */
+    void measure_overlaps(const GrainArrays     &grains,
+                          const ContactGeometry &geometry,
+                          const ContactProblem  &problem,
+                          double                &mean,
+                          double                &largest) const;
 
   private:
     struct Active

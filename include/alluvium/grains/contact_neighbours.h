@@ -1,6 +1,7 @@
 #pragma once
 
 #include <alluvium/grains/contact_archive.h>
+#include <alluvium/grains/contact_communicator.h>
 #include <alluvium/grains/contact_search.h>
 
 #include <vector>
@@ -20,14 +21,24 @@ namespace alluvium::grains
     /** Search anew all pairs with gaps below @p skin [m]; known pairs keep their impulses. */
     void search(const GrainArrays &grains, const ContactGeometry &geometry, double skin);
 
+    /**
+     * After a search of all grains, go on with one rank's @p share of the pairs, between its @p grains only, of which
+     * it owns the first @p n_owned.
+     */
+    void keep(ContactCandidates share, const GrainArrays &grains, std::size_t n_owned);
+
     /** Let the next use search anew, whatever has moved. */
     void forget();
 
     /** Whether there was a search, and for these grains in this order. */
     bool known(const GrainArrays &grains) const { return searched && searched_id == grains.id; }
 
-    /** How far two grains, or a grain and a wall, may still approach each other before a pair is missed [m]. */
-    double slack(const GrainArrays &grains, const Periodicity &periodicity) const;
+    /**
+     * How far two grains, or a grain and a wall, may still approach each other before a pair is missed [m]. Collective
+     * over @p communicator, if there are several ranks.
+     */
+    double
+    slack(const GrainArrays &grains, const Periodicity &periodicity, ContactCommunicator *communicator = nullptr) const;
 
     /** Walls have moved by up to @p distance [m]. */
     void walls_moved(const double distance) { skin -= distance; }
@@ -46,12 +57,14 @@ namespace alluvium::grains
           p.rn = p.rt = 0.;
     }
 
+    /** Of the pairs whose first grain this rank owns. */
     ContactArchive archive() const;
     void           set_archive(ContactArchive archive);
 
   private:
     std::vector<GrainId> searched_id; // the grains of the last search, and where they were
     std::vector<double>  searched_x, searched_y;
+    std::size_t          n_owned  = 0; // of them
     double               skin     = 0.;
     bool                 searched = false;
     ContactArchive       pending; // impulses that wait for a search

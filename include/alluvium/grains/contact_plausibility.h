@@ -4,13 +4,18 @@
 
 namespace alluvium::grains
 {
-  /** Sums over the first n discs that something can move: mass times speed [N s/m], and kinetic energy [J/m]. */
+  /** Sums over all discs that something can move: mass [kg/m], mass times speed [N s/m], and kinetic energy [J/m]. */
   struct MotionSums
   {
     double mass = 0., momentum = 0., energy = 0.;
   };
 
-  MotionSums sum_motion(const std::vector<Disc> &discs, std::size_t n);
+  /**
+   * Of the first @p n of @p discs, those that this rank owns, and those of all other ranks; see sum_over_ranks() for
+   * @p n_all. Collective, like the others.
+   */
+  MotionSums
+  sum_motion(const std::vector<Disc> &discs, std::size_t n, std::size_t n_all, ContactCommunicator *communicator);
 
   /**
    * Whether an impulse is far larger than what the motion @p before could ask for. Friction can lock a disc in a wedge
@@ -24,5 +29,5 @@ namespace alluvium::grains
    * Whether impacts have made energy. Newton's restitution does where several meet in one sub-step: a disc that is hit
    * by one neighbour while another leaves it takes the other along, and the first still bounces at its full speed.
    */
-  bool has_gained_energy(const ContactProblem &problem, const MotionSums &before, double extra);
+  bool has_gained_energy(const ContactProblem &problem, std::size_t n_all, const MotionSums &before, double extra);
 } // namespace alluvium::grains

@@ -83,6 +83,17 @@ namespace alluvium::grains
 
     /** Whether sums over all ranks take @p contact from this one. */
     bool counts(const Contact &contact) const { return contact.i < n_owned_discs; }
+
+    /** How many contacts they take from this one. */
+    std::size_t n_counted() const
+    {
+      if (communicator == nullptr)
+        return contacts.size();
+      std::size_t n = 0;
+      for (const Contact &c : contacts)
+        n += counts(c);
+      return n;
+    }
   };
 
   /** Add the velocities that the impulses in @p problem cause to its velocities. */

@@ -4,9 +4,12 @@
 #include <alluvium/grains/contact_force.h>
 #include <alluvium/grains/contact_report.h>
 #include <alluvium/grains/contact_settings.h>
+#include <alluvium/grains/ghost_exchange.h>
 #include <alluvium/grains/grain_arrays.h>
 #include <alluvium/grains/periodicity.h>
 #include <alluvium/grains/wall.h>
+
+#include <mpi.h>
 
 #include <array>
 #include <cstdint>
@@ -31,8 +34,10 @@ namespace alluvium::grains
    *
    * With `Contact model = soft-sphere`, SoftSpheres does all this instead.
    *
-   * Runs on replicated arrays and communicates nothing: the same input gives the same bits. When the last contact
-   * search was decides in which order contacts are solved, which shows within the tolerance.
+   * Arrays are replicated: the same on all ranks before and after a step. With set_communicator(), ranks share the work
+   * (ContactShare); without, or where there is little of it, each does all. The same input gives the same bits either
+   * way, on any number of ranks. When the last contact search was decides in which order contacts are solved, which
+   * shows within the tolerance.
    */
   class ContactStepper
   {
@@ -48,6 +53,16 @@ namespace alluvium::grains
     /** Throws UserError if the settings name a wall that is not among them. */
     void                            set_walls(std::vector<WallSegment> walls);
     const std::vector<WallSegment> &walls() const; // where they are now, if they move
+
+    /**
+     * Share the work of advance() with the other ranks of @p communicator; advance(), forces(), archive() and
+     * set_communicator() are collective then. Every rank must have the same parameters and walls. Soft spheres and
+     * cohesion are not shared.
+     */
+    void set_communicator(MPI_Comm communicator);
+
+    /** What this rank has sent so far for the sake of contacts. */
+    ContactTraffic traffic() const;
 
     /** Let the box repeat itself: grains that leave it come in again at the other side, with x0 and y0 moved along. */
     void set_periodicity(const Periodicity &periodicity);
