@@ -225,6 +225,7 @@ namespace alluvium
     const auto walls = grain_setup.walls(domain);
     contacts.set_walls(walls);
     contacts.set_periodicity(domain.periodicity());
+    contacts.set_communicator(communicator);
     grains                            = grain_setup.make(communicator, domain, walls, gravity, directory);
     const std::array<double, 2> lower = {{domain.lower()[0], domain.lower()[1]}},
                                 upper = {{domain.upper()[0], domain.upper()[1]}};
@@ -308,7 +309,8 @@ namespace alluvium
     else
       line("fluid", "left out (Fluid/Model = none): no mesh, no matrices");
     line("contacts",
-         grains_move ? std::to_string(contacts.walls().size()) + " walls" : "left out: all grains are fixed");
+         grains_move ? std::to_string(contacts.walls().size()) + " walls; " + contacts.sharing(grains.n())
+                     : "left out: all grains are fixed");
     std::string names, idle;
     for (const auto &name : Utilities::split_string_list(observer_choice.name()))
       {

@@ -52,6 +52,21 @@ namespace alluvium::grains
       share = std::make_unique<ContactShare>(communicator);
     }
 
+    const Cohesion *acting_cohesion() const
+    {
+      return !cohesion_choice.name().empty() && cohesion_choice.get().acts() ? &cohesion_choice.get() : nullptr;
+    }
+
+    /**
+     * Whether ranks share the work on @p n grains. Cohesion and soft spheres sum forces pair by pair in the order of
+     * all grains, so there every rank does all.
+     */
+    bool shares(const std::size_t n) const
+    {
+      return share && share->n_ranks() > 1 && model == "non-smooth" && acting_cohesion() == nullptr &&
+             n >= settings.least_share * share->n_ranks();
+    }
+
     ContactArchive archive() const { return shared ? share->collect(neighbours.archive()) : neighbours.archive(); }
 
   private:
@@ -169,9 +184,9 @@ namespace alluvium::grains
     share->collect(*all, touched);
     neighbours.set_archive(archive());
     neighbours.search(*all, geometry, slack);
-    const auto was_touched = touched;
-    neighbours.keep(
-      share->divide(*all, *all_loads, neighbours.pairs, neighbours.n_colours), share->grains, share->n_owned());
+    const auto        was_touched = touched;
+    ContactCandidates mine        = share->divide(*all, *all_loads, neighbours.pairs, neighbours.n_colours);
+    neighbours.keep(std::move(mine), share->grains, share->n_owned());
     for (std::size_t k = 0; k < share->touched.size(); ++k)
       share->touched[k] = was_touched[share->number_of(k)];
     bodies.set(share->grains, share->loads, h, settings.rotation);
@@ -493,7 +508,7 @@ namespace alluvium::grains
       return report;
 
     materials = make_materials(settings, geometry.walls.segments());
-    cohesion  = !cohesion_choice.name().empty() && cohesion_choice.get().acts() ? &cohesion_choice.get() : nullptr;
+    cohesion  = acting_cohesion();
     set_scales(grains, gravity);
     if (model == "soft-sphere")
       {
@@ -515,8 +530,7 @@ namespace alluvium::grains
     grains.fcy.assign(n, 0.);
     all       = &grains;
     all_loads = &loads;
-    // Bonds are summed pair by pair in the order of all grains, so cohesion is every rank's own.
-    set_shared(share && share->n_ranks() > 1 && !cohesion && n >= settings.least_share * share->n_ranks());
+    set_shared(shares(n));
     if (shared && share->fits(grains))
       share->load(grains, loads);
     else if (shared)
@@ -657,6 +671,19 @@ namespace alluvium::grains
   void ContactStepper::set_communicator(const MPI_Comm communicator)
   {
     implementation->set_communicator(communicator);
+  }
+
+  std::string ContactStepper::sharing(const std::size_t n_grains) const
+  {
+    const unsigned int n_ranks = implementation->share ? implementation->share->n_ranks() : 1;
+    if (n_ranks == 1)
+      return "on one rank";
+    if (implementation->shares(n_grains))
+      return "shared by " + std::to_string(n_ranks) + " ranks";
+    return std::string("not shared, all ") + std::to_string(n_ranks) + " ranks do the same: " +
+           (implementation->model != "non-smooth"          ? "soft spheres"
+            : implementation->acting_cohesion() != nullptr ? "cohesion"
+                                                           : "too few grains a rank (Contacts/Least grains a rank)");
   }
 
   ContactTraffic ContactStepper::traffic() const

@@ -77,9 +77,9 @@ namespace alluvium::observers
       {
         const std::string name = "force-chains-" + dealii::Utilities::int_to_string(written.size(), 5) + ".vtp";
         written.emplace_back(s.time, name);
+        const auto forces = s.stepper->forces(s.grains); // collective
         if (dealii::Utilities::MPI::this_mpi_process(s.communicator) != 0)
           return;
-        const auto    forces = s.stepper->forces(s.grains);
         std::ofstream out(s.folder + "/" + name);
         out.precision(9);
         out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n<Piece "

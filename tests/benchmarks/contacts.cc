@@ -10,14 +10,19 @@
 // --kick V gives one grain in twenty a velocity of V m/s at the start.
 // --cold shows how one step from zero velocities and unknown impulses converges, against CPU time in units of one plain
 // sweep.
+// With mpirun, ranks share the work; each tells what it computed and sent.
 #include <alluvium/grains/contact_stepper.h>
 #include <alluvium/grains/deposit.h>
 #include <alluvium/utilities/plugin.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <fstream>
 #include <random>
@@ -124,6 +129,7 @@ namespace
     prm.parse_input_from_string(set);
     const double w = bed.width;
     set_walls(stepper, bed);
+    stepper.set_communicator(MPI_COMM_WORLD);
     GrainLoads loads;
     loads.reset(g.n());
     double weight = 0., diameter = 0.;
@@ -138,8 +144,9 @@ namespace
     const int       steps = static_cast<int>(std::lround(time / dt)), every = std::max(1, static_cast<int>(1e-3 / dt));
     unsigned long long sweeps = 0, updates = 0;
     unsigned int       halvings = 0, unconverged = 0, substeps = 0;
-    double             mean = 0., largest = 0., support = 0., seconds = 0.;
+    double             mean = 0., largest = 0., support = 0., seconds = 0., wall = 0.;
     ContactReport      first, report;
+    ContactTraffic     before;
     for (int s = -1; s < steps; ++s) // the first step starts cold and does not count
       {
         if (shake > 0. && s >= 0 && s % every == 0)
@@ -163,14 +170,16 @@ namespace
               loads.drag[k]     = g.mass[k] / 1e-3;
               loads.fy[k]       = g.mass[k] * gravity * fluidise * wave;
             }
-        const double t = cpu_seconds();
-        report         = stepper.advance(g, loads, dt, {{0., -gravity}});
+        const double t = cpu_seconds(), t_wall = MPI_Wtime();
+        report = stepper.advance(g, loads, dt, {{0., -gravity}});
         if (s < 0)
           {
-            first = report;
+            first  = report;
+            before = stepper.traffic();
             continue;
           }
         seconds += cpu_seconds() - t;
+        wall += MPI_Wtime() - t_wall;
         sweeps += report.n_sweeps;
         updates += report.n_updates;
         halvings += report.n_halvings;
@@ -183,6 +192,36 @@ namespace
           f -= force[1];
         support += f / weight / steps;
       }
+    int n_ranks, rank;
+    MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    {
+      // Waiting for other ranks takes CPU time, and on shared cores any time: what a rank computes is the rest.
+      const ContactTraffic t    = stepper.traffic();
+      std::uint64_t        bits = 0;
+      for (const auto *v : {&g.x, &g.y, &g.vx, &g.vy, &g.omega, &g.fcx, &g.fcy})
+        for (const double value : *v)
+          {
+            std::uint64_t word;
+            std::memcpy(&word, &value, sizeof word);
+            bits = (bits ^ word) * 0x9e3779b97f4a7c15ull;
+          }
+      std::printf(
+        "rank %d of %d: wall %.3f s, CPU %.3f s, in MPI %.3f s (wall); a sweep: %.1f messages, %.0f bytes, %.1f "
+        "reductions; %llu grains came from others; bits of the end state %016llx\n",
+        rank,
+        n_ranks,
+        wall,
+        seconds,
+        t.seconds - before.seconds,
+        double(t.n_messages - before.n_messages) / sweeps,
+        double(t.n_bytes - before.n_bytes) / sweeps,
+        double(t.n_reductions - before.n_reductions) / sweeps,
+        t.n_migrated - before.n_migrated,
+        static_cast<unsigned long long>(bits));
+    }
+    if (rank != 0)
+      return;
     std::printf(
       "%-20s dt %.0e: cold %5llu sweeps; then sweeps/step %7.1f  ns/update %5.1f  CPU/0.01 s %.4f s  ms/step %.3f  "
       "mean pen/d %.1e  max %.1e  support %.6f  vmax/gdt %.1e  contacts %u substeps %u halvings %u unconverged %u\n",
@@ -280,6 +319,7 @@ namespace
 
 int main(int argc, char **argv)
 {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   std::string         solver = "accelerated Gauss-Seidel";
   double              time = 0.05, shake = 0., fluidise = 0., kick = 0.;

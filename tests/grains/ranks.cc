@@ -351,7 +351,9 @@ TEST(Ranks, SolversHaveTheSameBits)
 // What is not shared: every rank does it all.
 TEST(Ranks, CohesionAndSoftSpheresAreNotShared)
 {
-  for (const std::string set : {"set Contact model = soft-sphere", "set Cohesion = constant force"})
+  for (const std::string set :
+       {"set Contact model = soft-sphere",
+        "set Cohesion = constant force\nsubsection Cohesion: constant force\nset Force = 0.01\nend"})
     {
       Twins twins;
       twins.both([&](Scene &s) {

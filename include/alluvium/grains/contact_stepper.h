@@ -14,6 +14,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace dealii
@@ -60,6 +61,9 @@ namespace alluvium::grains
      * cohesion are not shared.
      */
     void set_communicator(MPI_Comm communicator);
+
+    /** In words, who works on the contacts of @p n_grains. */
+    std::string sharing(std::size_t n_grains) const;
 
     /** What this rank has sent so far for the sake of contacts. */
     ContactTraffic traffic() const;
