@@ -33,7 +33,7 @@ namespace alluvium::grains
     double       push_out            = 0.1;  // times sqrt(g d): and how fast at most
     unsigned int rest_steps          = 10;   // without change before grains stand still; see Rest
     double       skin                = 0.15; // of the largest diameter
-    unsigned int least_share         = 500;  // grains a rank, or every rank does all
+    unsigned int least_share         = 2000; // grains a rank, or every rank does all
 
     std::map<std::string, double> single_friction, single_rolling_friction, single_restitution; // of walls, by name
 
