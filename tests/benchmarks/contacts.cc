@@ -216,6 +216,7 @@ namespace
                   n_ranks,
                   wall,
                   seconds,
+                  seconds_in_mpi - mpi_before,
                   t.seconds - before.seconds,
                   double(t.n_messages - before.n_messages) / sweeps,
                   double(t.n_bytes - before.n_bytes) / sweeps,
