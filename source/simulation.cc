@@ -124,20 +124,22 @@ namespace alluvium
     void run(const ParameterHandler &prm, const std::string &directory);
 
   private:
-    void                adapt_mesh();
-    void                step();
-    void                observe();
-    void                write_statistics();
-    void                write_pictures();
-    void                open_output();
-    void                load_by_gravity();
-    void                find_initial_contact_forces();
-    void                write_checkpoint();
-    void                read_checkpoint();
-    void                conclude(const bool interrupted);
-    double              head() const;
-    observers::Snapshot snapshot() const;
-    std::string         checkpoint_folder() const { return folder.file("checkpoint"); }
+    mesh::RefinementContext refinement_context() const;
+    void                    find_initial_mesh();
+    bool                    adapt_mesh();
+    void                    step();
+    void                    observe();
+    void                    write_statistics();
+    void                    write_pictures();
+    void                    open_output();
+    void                    load_by_gravity();
+    void                    find_initial_contact_forces();
+    void                    write_checkpoint();
+    void                    read_checkpoint();
+    void                    conclude(const bool interrupted);
+    double                  head() const;
+    observers::Snapshot     snapshot() const;
+    std::string             checkpoint_folder() const { return folder.file("checkpoint"); }
 
     const MPI_Comm communicator;
     const bool     speaks;
@@ -233,7 +235,7 @@ namespace alluvium
     initial_bed                       = mesh::find_bed_faces(grains, lower[0], upper[0]);
     if (has_fluid)
       {
-        const auto context = mesh::make_refinement_context(grains, lower[0], upper[0]);
+        const auto context = refinement_context();
         coarse_cell_size = domain.coarse_cell_size() > 0. ? domain.coarse_cell_size() : adaptivity.coarse_size(context);
         triangulation    = domain.make_triangulation(coarse_cell_size);
         adaptivity.check_mesh(*triangulation);
@@ -257,6 +259,7 @@ namespace alluvium
         solver.choose_datum(boundary_conditions);
         coupling.reinit();
         coupling.update_void_fraction(grains);
+        find_initial_mesh();
         fluid_view =
           std::make_unique<observers::FluidView>(observers::FluidView{space, solver, boundary_conditions, coupling});
       }
@@ -408,7 +411,7 @@ namespace alluvium
     const double dt = parameters.time_step;
     if (has_fluid)
       {
-        if (grains_move && adaptivity.due(n_steps))
+        if ((grains_move || adaptivity.needs_fluid()) && adaptivity.due(n_steps))
           adapt_mesh();
         const auto timer = timers.scope("fluid");
         boundary_conditions.set_time(time + dt);
@@ -478,13 +481,41 @@ namespace alluvium
   }
 
 
-  void Simulation::Implementation::adapt_mesh()
+  mesh::RefinementContext Simulation::Implementation::refinement_context() const
   {
-    const auto         timer = timers.scope("mesh adaptation");
-    fluid::BlockVector field;
-    adaptivity.adapt(
+    const auto length  = domain.periodicity().length;
+    auto       context = mesh::make_refinement_context(
+      grains, {{{domain.lower()[0], domain.lower()[1]}}, {{domain.upper()[0], domain.upper()[1]}}});
+    context.periodic = {{length[0] > 0., length[1] > 0.}};
+    context.time     = time;
+    context.gravity  = std::hypot(gravity[0], gravity[1]);
+    return context;
+  }
+
+
+  /** Criteria that look at the fluid see more on a finer mesh: they are asked until the mesh stays. */
+  void Simulation::Implementation::find_initial_mesh()
+  {
+    constexpr unsigned int max_rounds = 10;
+    for (unsigned int round = 0; adaptivity.needs_fluid() && round < max_rounds; ++round)
+      {
+        if (!adapt_mesh())
+          break;
+        coupling.update_void_fraction(grains);
+      }
+  }
+
+
+  bool Simulation::Implementation::adapt_mesh()
+  {
+    const auto             timer = timers.scope("mesh adaptation");
+    fluid::BlockVector     field;
+    const mesh::FluidState fluid_state{space, solver.solution(), coupling.void_fraction()};
+    auto                   context = refinement_context();
+    context.fluid                  = &fluid_state;
+    const auto report              = adaptivity.adapt(
       *triangulation,
-      mesh::make_refinement_context(grains, domain.lower()[0], domain.upper()[0]),
+      context,
       [&] { transfer->prepare({&solver.solution()}); },
       [&] {
         space.reinit(boundary_conditions);
@@ -495,6 +526,7 @@ namespace alluvium
         coupling.reinit();
         counts["mesh adaptations"] += 1;
       });
+    return report.changed;
   }
 
 

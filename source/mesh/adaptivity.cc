@@ -103,11 +103,11 @@ namespace alluvium::mesh
 
 
   template <int dim>
-  double Adaptivity<dim>::wanted_size(const Box &box, const RefinementContext &context) const
+  double Adaptivity<dim>::wanted_size(const Box &box, const RefinementContext &context, const Purpose purpose) const
   {
     double result = RefinementCriterion::no_wish;
     for (const RefinementCriterion *criterion : criteria.all())
-      result = std::min(result, criterion->wanted_size(box, context));
+      result = std::min(result, criterion->wanted_size(box, context, purpose));
     if (context.grain_diameter > 0.)
       result = std::clamp(result, finest * context.grain_diameter, std::max(coarsest, finest) * context.grain_diameter);
     return result;
@@ -118,6 +118,16 @@ namespace alluvium::mesh
   bool Adaptivity<dim>::due(const unsigned int step) const
   {
     return interval > 0 && step > 0 && step % interval == 0;
+  }
+
+
+  template <int dim>
+  bool Adaptivity<dim>::needs_fluid() const
+  {
+    for (const RefinementCriterion *criterion : criteria.all())
+      if (criterion->needs_fluid())
+        return true;
+    return false;
   }
 
 
@@ -163,6 +173,8 @@ namespace alluvium::mesh
     const MPI_Comm   communicator = triangulation.get_communicator();
     auto            *distributed  = dynamic_cast<parallel::distributed::Triangulation<dim> *>(&triangulation);
     AdaptationReport report;
+    for (RefinementCriterion *criterion : criteria.all())
+      criterion->prepare(context);
 
     // p4est may undo what was flagged, to keep neighbours within one level: only its own checksum (valid on rank 0)
     // tells
@@ -178,7 +190,7 @@ namespace alluvium::mesh
             {
               cell->clear_refine_flag();
               cell->clear_coarsen_flag();
-              if (size_of(cell) > tolerance * wanted_size(box_of(cell), context))
+              if (size_of(cell) > tolerance * wanted_size(box_of(cell), context, Purpose::refine))
                 {
                   if (static_cast<unsigned int>(cell->level()) >= max_levels)
                     at_max_level = true;
@@ -192,7 +204,7 @@ namespace alluvium::mesh
                 {
                   const auto parent = cell->parent();
                   if (static_cast<unsigned int>(cell->level()) > max_levels ||
-                      size_of(parent) <= tolerance * wanted_size(box_of(parent, margin), context))
+                      size_of(parent) <= tolerance * wanted_size(box_of(parent, margin), context, Purpose::coarsen))
                     {
                       cell->set_coarsen_flag();
                       ++n_coarsen;
@@ -246,7 +258,7 @@ namespace alluvium::mesh
           const double size = size_of(cell);
           smallest          = std::min(smallest, size);
           largest           = std::max(largest, size);
-          if (size > tolerance * wanted_size(box_of(cell), context))
+          if (size > tolerance * wanted_size(box_of(cell), context, Purpose::refine))
             too_large = 1;
         }
     report.n_cells   = triangulation.n_global_active_cells();

@@ -36,7 +36,7 @@ namespace alluvium::mesh
                           dealii::Patterns::Double(1e-3));
       }
 
-      double wanted_size(const Box &box, const RefinementContext &context) const override
+      double wanted_size(const Box &box, const RefinementContext &context, const Purpose) const override
       {
         const double d = context.grain_diameter;
         if (context.bed.empty() || !(d > 0.))

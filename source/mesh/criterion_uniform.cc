@@ -15,7 +15,7 @@ namespace alluvium::mesh
           "Cell size", size, "Size of all cells, in mean grain diameters (h/d).", dealii::Patterns::Double(1e-3));
       }
 
-      double wanted_size(const Box &, const RefinementContext &context) const override
+      double wanted_size(const Box &, const RefinementContext &context, const Purpose) const override
       {
         return coarsest_size(context);
       }

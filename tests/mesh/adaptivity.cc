@@ -3,7 +3,9 @@
 
 #include <alluvium/mesh/adaptivity.h>
 
+#include <deal.II/base/function_parser.h>
 #include <deal.II/distributed/tria.h>
+#include <deal.II/numerics/vector_tools_interpolate.h>
 
 #include <cmath>
 
@@ -34,6 +36,13 @@ namespace
         result.radius[i] = d / 2.;
       }
     return result;
+  }
+
+  const Box unit_square{{{0., 0.}}, {{1., 1.}}};
+
+  RefinementContext context_of(const grains::GrainArrays &grains)
+  {
+    return make_refinement_context(grains, unit_square);
   }
 
   double size(const Triangulation<2>::active_cell_iterator &cell)
@@ -101,7 +110,7 @@ namespace
       {
         const Scene scene(
           {{"Mesh refinement/Criteria", "uniform"}, {"Mesh refinement/Criteria: uniform/Cell size", std::to_string(h)}},
-          make_refinement_context(make_bed(d, 0., 0.5), 0., 1.));
+          context_of(make_bed(d, 0., 0.5)));
         EXPECT_NEAR(scene.report.smallest / d, h, 1e-6);
         EXPECT_NEAR(scene.report.largest / d, h, 1e-6);
         EXPECT_TRUE(scene.report.satisfied);
@@ -110,7 +119,7 @@ namespace
 
   TEST(Adaptivity, BedFacesAreFineAndTheRestGrowsCoarse)
   {
-    const auto  context = make_refinement_context(make_bed(d, 0.25, 0.5), 0., 1.);
+    const auto  context = context_of(make_bed(d, 0.25, 0.5));
     const Scene scene({{"Mesh refinement/Criteria: bed faces/Cell size at the bottom", "1"},
                        {"Mesh refinement/Criteria: bed faces/Cell size at the top", "0.5"}},
                       context);
@@ -144,7 +153,7 @@ namespace
 
   TEST(Adaptivity, SmallestWishWinsAndLimitsHold)
   {
-    const auto  context = make_refinement_context(make_bed(d, 0.25, 0.5), 0., 1.);
+    const auto  context = context_of(make_bed(d, 0.25, 0.5));
     const Scene both(
       {{"Mesh refinement/Criteria", "bed faces, uniform"}, {"Mesh refinement/Criteria: uniform/Cell size", "2"}},
       context);
@@ -164,7 +173,7 @@ namespace
 
   TEST(Adaptivity, SettlesAtOnceAndFollowsTheBed)
   {
-    const auto context = make_refinement_context(make_bed(d, 0.25, 0.5), 0., 1.);
+    const auto context = context_of(make_bed(d, 0.25, 0.5));
     Scene      scene({}, context);
     for (unsigned int repeat = 0; repeat < 2; ++repeat)
       {
@@ -172,12 +181,12 @@ namespace
         EXPECT_FALSE(report.changed);
       }
     // a bed that trembles by half a diameter to and fro changes the mesh at most once
-    const auto shaken = make_refinement_context(make_bed(d, 0.25 + d / 2., 0.5 + d / 2.), 0., 1.);
+    const auto shaken = context_of(make_bed(d, 0.25 + d / 2., 0.5 + d / 2.));
     scene.adaptivity.adapt(*scene.mesh, shaken, {}, {});
     EXPECT_FALSE(scene.adaptivity.adapt(*scene.mesh, context, {}, {}).changed);
     EXPECT_FALSE(scene.adaptivity.adapt(*scene.mesh, shaken, {}, {}).changed);
     // far away, the old bands are given up
-    const auto moved  = make_refinement_context(make_bed(d, 0.5, 0.75), 0., 1.);
+    const auto moved  = context_of(make_bed(d, 0.5, 0.75));
     const auto report = scene.adaptivity.adapt(*scene.mesh, moved, {}, {});
     EXPECT_TRUE(report.changed);
     EXPECT_TRUE(report.satisfied);
@@ -186,9 +195,158 @@ namespace
     EXPECT_FALSE(scene.adaptivity.adapt(*scene.mesh, moved, {}, {}).changed);
   }
 
+  /** The smallest and the largest cell that touches the disc of radius 3 d around (x, y). */
+  std::array<double, 2> sizes_around(const Triangulation<2> &mesh, const double x, const double y)
+  {
+    std::array<double, 2> result{{1e300, 0.}};
+    for (const auto &cell : mesh.active_cell_iterators())
+      if (cell->is_locally_owned() && cell->center().distance({x, y}) < 3. * d + 0.71 * size(cell))
+        {
+          result[0] = std::min(result[0], size(cell));
+          result[1] = std::max(result[1], size(cell));
+        }
+    return {{Utilities::MPI::min(result[0], MPI_COMM_WORLD), Utilities::MPI::max(result[1], MPI_COMM_WORLD)}};
+  }
+
+  TEST(Adaptivity, FinenessFollowsTheGrainsThatMoveAndLetsThemGoLater)
+  {
+    const Parameters parameters = {{"Mesh refinement/Criteria", "moving grains"},
+                                   {"Mesh refinement/Criteria: moving grains/Cell size", "0.5"},
+                                   {"Mesh refinement/Criteria: moving grains/Speed", "0.1"}};
+    auto             grains     = make_bed(d, 0.25, 0.5);
+    auto             context    = context_of(grains);
+    context.gravity             = 9.81;
+    const double scale          = 0.1 * std::sqrt(9.81 * d);
+    Scene        scene(parameters, context);
+    EXPECT_NEAR(scene.report.smallest / d, 8., 1e-6); // nothing moves
+
+    const auto boil = [&](const double x, const double speed) {
+      for (std::size_t i = 0; i < grains.n(); ++i)
+        grains.vy[i] = std::hypot(grains.x[i] - x, grains.y[i] - 0.4) < 3. * d ? speed : 0.;
+    };
+    boil(0.25, 1.01 * scale);
+    EXPECT_TRUE(scene.adaptivity.adapt(*scene.mesh, context, {}, {}).satisfied);
+    EXPECT_NEAR(sizes_around(*scene.mesh, 0.25, 0.4)[1] / d, 0.5, 1e-6);
+    EXPECT_GE(sizes_around(*scene.mesh, 0.8, 0.4)[0] / d, 4. - 1e-6);
+
+    // slower, but not slow enough to be let go: the mesh stays, to and fro
+    boil(0.25, 0.8 * scale);
+    EXPECT_FALSE(scene.adaptivity.adapt(*scene.mesh, context, {}, {}).changed);
+    boil(0.25, 1.1 * scale);
+    EXPECT_FALSE(scene.adaptivity.adapt(*scene.mesh, context, {}, {}).changed);
+
+    // elsewhere: coarse behind
+    boil(0.75, 2. * scale);
+    scene.adaptivity.adapt(*scene.mesh, context, {}, {});
+    EXPECT_NEAR(sizes_around(*scene.mesh, 0.75, 0.4)[1] / d, 0.5, 1e-6);
+    EXPECT_GE(sizes_around(*scene.mesh, 0.2, 0.4)[0] / d, 4. - 1e-6);
+    boil(0.75, 0.);
+    EXPECT_NEAR(scene.adaptivity.adapt(*scene.mesh, context, {}, {}).smallest / d, 8., 1e-6);
+  }
+
+  TEST(Adaptivity, AFormulaGivesTheSize)
+  {
+    const auto grains  = make_bed(d, 0.25, 0.5);
+    auto       context = context_of(grains);
+    Scene      scene({{"Mesh refinement/Criteria", "function"},
+                      {"Mesh refinement/Criteria: function/Cell size", "if(abs(x - 0.25 - t) < 4*d, 1, 8)"}},
+                context);
+    EXPECT_NEAR(sizes_around(*scene.mesh, 0.25, 0.5)[1] / d, 1., 1e-6);
+    EXPECT_GE(sizes_around(*scene.mesh, 0.75, 0.5)[0] / d, 4. - 1e-6);
+    context.time = 0.5;
+    scene.adaptivity.adapt(*scene.mesh, context, {}, {});
+    EXPECT_NEAR(sizes_around(*scene.mesh, 0.75, 0.5)[1] / d, 1., 1e-6);
+    EXPECT_GE(sizes_around(*scene.mesh, 0.25, 0.5)[0] / d, 4. - 1e-6);
+
+    const auto bad = [&](const std::string &formula) {
+      return error_of([&] {
+        Scene({{"Mesh refinement/Criteria", "function"}, {"Mesh refinement/Criteria: function/Cell size", formula}},
+              context);
+      });
+    };
+    EXPECT_TRUE(contains(bad("3*w"), "Criteria: function/Cell size: cannot understand '3*w'"));
+    EXPECT_TRUE(contains(bad("x - 0.5"), "sizes must be positive"));
+  }
+
+  /** Fields given by functions on the unit square's uniform mesh of side 1/16, and what a criterion makes of them. */
+  struct FieldScene
+  {
+    FieldScene(const Parameters &parameters, const std::string &flow, const std::string &void_fraction)
+    {
+      set_parameters(adaptivity, prm, parameters);
+      domain.initialize(MPI_COMM_WORLD, "");
+      mesh = domain.make_triangulation(1. / 8.);
+      mesh->refine_global(1);
+      set_parameters(
+        boundaries,
+        boundary_prm,
+        {{"Boundary conditions/Slip walls", "bottom, top, left, right"}, {"Boundary conditions/Pin pressure", "true"}});
+      boundaries.initialize(domain.boundary_ids(), {});
+      space.attach(*mesh);
+      space.reinit(boundaries);
+      solution = space.make_field();
+      eps      = space.make_nodal_field();
+      FunctionParser<2> flow_parser(3), void_fraction_parser(1);
+      flow_parser.initialize("x,y", flow, {});
+      void_fraction_parser.initialize("x,y", void_fraction, {});
+      VectorTools::interpolate(space.dof_handler(), flow_parser, solution);
+      VectorTools::interpolate(space.nodal_dof_handler(), void_fraction_parser, eps);
+      solution.update_ghost_values();
+      eps.update_ghost_values();
+      grains                   = make_bed(d, 0.25, 0.5);
+      auto             context = context_of(grains);
+      const FluidState state{space, solution, eps};
+      context.fluid = &state;
+      report        = adaptivity.adapt(*mesh, context, {}, {});
+    }
+
+    ParameterHandler                  prm, boundary_prm;
+    Domain<2>                         domain;
+    Adaptivity<2>                     adaptivity;
+    std::unique_ptr<Triangulation<2>> mesh;
+    fluid::BoundaryConditions<2>      boundaries;
+    fluid::FluidSpace<2>              space;
+    mesh::BlockVector                 solution;
+    mesh::Vector                      eps;
+    grains::GrainArrays               grains;
+    AdaptationReport                  report;
+  };
+
+  TEST(Adaptivity, FineWhereTheVoidFractionChanges)
+  {
+    // from 1 to 0.5 over 2 d = 1/32 about y = 0.5: 0.1 a cell takes cells of 0.4 d
+    const FieldScene scene(
+      {{"Mesh refinement/Criteria", "void fraction"}}, "0; 0; 0", "0.75 + 0.25*tanh(64*(y - 0.5))");
+    EXPECT_LE(sizes_around(*scene.mesh, 0.3, 0.5)[1], 0.5 / 16.);
+    EXPECT_GE(sizes_around(*scene.mesh, 0.3, 0.1)[0] / d, 4.);
+    EXPECT_GE(sizes_around(*scene.mesh, 0.3, 0.9)[0] / d, 4.);
+    // a change of less than that over a cell of any size is left alone
+    const FieldScene flat({{"Mesh refinement/Criteria", "void fraction"}}, "0; 0; 0", "0.5 + 0.1*y");
+    EXPECT_NEAR(flat.report.smallest / d, 8., 1e-6);
+  }
+
+  TEST(Adaptivity, FineWhereTheFlowWorksOnTheGrains)
+  {
+    // the power y^8 has the mean 1/9: high above y = (3/9)^(1/8) = 0.872
+    const FieldScene scene({{"Mesh refinement/Criteria", "drag work"}}, "y^8; 0; -x", "0.5");
+    EXPECT_NEAR(sizes_around(*scene.mesh, 0.5, 0.95)[1] / d, 1., 1e-6);
+    EXPECT_GE(sizes_around(*scene.mesh, 0.5, 0.4)[0] / d, 4.);
+  }
+
+  TEST(Adaptivity, FineWhereTheVelocitysGradientJumps)
+  {
+    const FieldScene scene({{"Mesh refinement/Criteria", "velocity jump"}}, "tanh(30*(y - 0.5)); 0; 0", "1");
+    EXPECT_LE(sizes_around(*scene.mesh, 0.5, 0.5)[0] / d, 2. + 1e-6);
+    EXPECT_GE(sizes_around(*scene.mesh, 0.5, 0.1)[0] / d, 4.);
+    EXPECT_GE(sizes_around(*scene.mesh, 0.5, 0.9)[0] / d, 4.);
+    // the estimator sees no error in what the elements hold exactly
+    const FieldScene linear({{"Mesh refinement/Criteria", "velocity jump"}}, "x + y; -y; 0", "1");
+    EXPECT_NEAR(linear.report.smallest / d, 8., 1e-6);
+  }
+
   TEST(Adaptivity, TooManyCellsAreRefusedAtTheStartAndAvoidedLater)
   {
-    const auto context = make_refinement_context(make_bed(d, 0.25, 0.5), 0., 1.);
+    const auto context = context_of(make_bed(d, 0.25, 0.5));
     EXPECT_TRUE(contains(error_of([&] { Scene({{"Mesh refinement/Max cells", "500"}}, context); }), "Max cells"));
 
     // enough for the initial mesh, not for its doubling
@@ -198,7 +356,7 @@ namespace
     auto        tilted = make_bed(d, 0.25, 0.5);
     for (std::size_t i = 0; i < tilted.n(); ++i)
       tilted.y[i] += tilted.x[i] < 0.5 ? 0.3 : -0.2;
-    const auto report = scene.adaptivity.adapt(*scene.mesh, make_refinement_context(tilted, 0., 1.), {}, {});
+    const auto report = scene.adaptivity.adapt(*scene.mesh, context_of(tilted), {}, {});
     EXPECT_LE(report.n_cells, std::stoul(n));
   }
 
@@ -209,7 +367,7 @@ namespace
     set_parameters(domain, prm, {{"Domain/Mesh file", "triangles_41.msh"}});
     domain.initialize(MPI_COMM_WORLD, std::string(ALLUVIUM_TEST_DATA) + "/data");
     const auto    mesh    = domain.make_triangulation(0.);
-    const auto    context = make_refinement_context(make_bed(d, 0.25, 0.5), 0., 1.);
+    const auto    context = context_of(make_bed(d, 0.25, 0.5));
     Adaptivity<2> asked, quiet;
     set_parameters(asked, prm, {});
     EXPECT_TRUE(contains(error_of([&] { asked.make_initial_mesh(*mesh, context); }), "Interval = 0"));
@@ -237,7 +395,7 @@ namespace
 
   TEST(FieldTransfer, LinearFieldsSurviveRefinementAndCoarseningExactly)
   {
-    const auto context = make_refinement_context(make_bed(d, 0.25, 0.5), 0., 1.);
+    const auto context = context_of(make_bed(d, 0.25, 0.5));
     Scene      scene({}, context);
     Space      space(*scene.mesh);
 
@@ -253,7 +411,7 @@ namespace
 
     FieldTransfer<2> transfer(space.dofs, space.nodal_dofs);
     unsigned int     n_before = 0, n_after = 0;
-    const auto       moved  = make_refinement_context(make_bed(d, 0.4, 0.7), 0., 1.);
+    const auto       moved  = context_of(make_bed(d, 0.4, 0.7));
     const auto       report = scene.adaptivity.adapt(
       *scene.mesh,
       moved,

@@ -45,6 +45,9 @@ namespace alluvium::mesh
     /** Is the mesh to be adapted before step number @p step (0, 1, ...)? */
     bool due(unsigned int step) const;
 
+    /** Does a criterion look at the fluid's fields? Then a mesh may change although no grain moves. */
+    bool needs_fluid() const;
+
     /**
      * Refine the mesh of t = 0 until all criteria are met. Throws UserError if that takes more than `Max cells`, or if
      * there are in the end fewer cells than ranks. Triangles stay as they are, and are to meet the criteria by
@@ -82,7 +85,7 @@ namespace alluvium::mesh
                          const std::function<void()>     &after,
                          bool                             initial) const;
 
-    double wanted_size(const Box &box, const RefinementContext &context) const;
+    double wanted_size(const Box &box, const RefinementContext &context, Purpose purpose) const;
 
     PluginChoice<RefinementCriterion> criteria;
     double                            coarsest = 8., finest = 0.25, margin = 0.25; // in d; in d; in cells

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <alluvium/fluid/fluid_space.h>
 #include <alluvium/mesh/bed_faces.h>
+#include <alluvium/mesh/box.h>
 
 #include <array>
 #include <limits>
@@ -12,24 +14,42 @@ namespace dealii
 
 namespace alluvium::mesh
 {
-  /** What a criterion may know of the present state. The same on all ranks. */
-  struct RefinementContext
+  /** The fluid's fields, ghosted, on the mesh as it is before it changes. */
+  struct FluidState
   {
-    double   grain_diameter = 0.; // mean [m]; 0 without grains
-    BedFaces bed;
+    const fluid::FluidSpace<2> &space;
+    const fluid::BlockVector   &solution; // velocity [m/s]; reduced pressure [Pa]
+    const fluid::Vector        &void_fraction;
   };
 
-  /** The context that @p grains make in a domain from x = @p left to @p right [m]. */
-  inline RefinementContext
-  make_refinement_context(const grains::GrainArrays &grains, const double left, const double right)
+  /** What a criterion may know of the present state. The same on all ranks, but for the parts of the fluid's fields. */
+  struct RefinementContext
   {
-    return {mean_diameter(grains), find_bed_faces(grains, left, right)};
+    double                     grain_diameter = 0.; // mean [m]; 0 without grains
+    BedFaces                   bed;
+    Box                        domain;
+    std::array<bool, 2>        periodic{};
+    double                     time = 0., gravity = 0.; // [s], magnitude [m/s^2]
+    const grains::GrainArrays *grains = nullptr;        // replicated
+    const FluidState          *fluid  = nullptr;        // none before the first mesh
+  };
+
+  /** The context that @p grains make in @p domain; without the fluid. @p grains must outlive it. */
+  inline RefinementContext make_refinement_context(const grains::GrainArrays &grains, const Box &domain)
+  {
+    RefinementContext context;
+    context.grain_diameter = mean_diameter(grains);
+    context.bed            = find_bed_faces(grains, domain.lower[0], domain.upper[0]);
+    context.domain         = domain;
+    context.grains         = &grains;
+    return context;
   }
 
-  /** A rectangle along the axes [m]. */
-  struct Box
+  /** What a wanted size is asked for: criteria let go later than they catch, so that the mesh does not flicker. */
+  enum class Purpose
   {
-    std::array<double, 2> lower, upper;
+    refine,
+    coarsen
   };
 
   /**
@@ -39,17 +59,25 @@ namespace alluvium::mesh
   {
   public:
     static constexpr double no_wish = std::numeric_limits<double>::infinity();
+    /** What a criterion with a threshold multiplies it by when it is asked for Purpose::coarsen. */
+    static constexpr double hysteresis = 0.7;
 
     virtual ~RefinementCriterion() = default;
     virtual void add_parameters(dealii::ParameterHandler &) {}
+
+    /** Look at a new @p context; wanted_size() is asked about it afterwards. Collective. */
+    virtual void prepare(const RefinementContext &) {}
 
     /**
      * The largest cell size [m] that is good enough everywhere in @p box (a larger box never has a larger one), or
      * no_wish.
      */
-    virtual double wanted_size(const Box &box, const RefinementContext &context) const = 0;
+    virtual double wanted_size(const Box &box, const RefinementContext &context, const Purpose purpose) const = 0;
 
     /** The largest size that it ever wants somewhere [m], or no_wish: the unrefined mesh need not be finer. */
-    virtual double coarsest_size(const RefinementContext &context) const = 0;
+    virtual double coarsest_size(const RefinementContext &) const { return no_wish; }
+
+    /** Does it look at the fluid's fields? */
+    virtual bool needs_fluid() const { return false; }
   };
 } // namespace alluvium::mesh

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <alluvium/mesh/refinement_criterion.h>
+#include <alluvium/mesh/size_raster.h>
+
+namespace alluvium::mesh
+{
+  /** The box around one of the fluid's cells. */
+  Box box_around(const fluid::CellData<2> &cell, const unsigned int n_nodes);
+
+  /**
+   * What the criteria have in common that want small cells in and around certain places: how far the wish reaches and
+   * how the size grows farther away, for refinement and for coarsening.
+   */
+  class SizeMarks
+  {
+  public:
+    /** Declare how far marks reach, with @p half_width diameters as the default. */
+    void add_parameters(dealii::ParameterHandler &prm, const double half_width);
+
+    /** Forget all marks; get ready for those of @p context. */
+    void clear(const RefinementContext &context);
+
+    /** Want at most @p size [m] in and around @p box. */
+    void add(const Box &box, const double size, const Purpose purpose);
+
+    /** All marks of this rank are there. Collective. */
+    void finish(const MPI_Comm communicator);
+
+    double wanted_size(const Box &box, const Purpose purpose) const
+    {
+      return raster[purpose == Purpose::refine ? 0 : 1].smallest_in(box);
+    }
+
+  private:
+    double                    half_width = 2., growth = 0.5, diameter = 0.;
+    std::array<SizeRaster, 2> raster;
+  };
+} // namespace alluvium::mesh

@@ -1,0 +1,91 @@
+#include <alluvium/mesh/size_marks.h>
+#include <alluvium/utilities/plugin.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/component_mask.h>
+#include <deal.II/grid/tria.h>
+#include <deal.II/numerics/error_estimator.h>
+
+#include <cmath>
+
+namespace alluvium::mesh
+{
+  namespace
+  {
+    /**
+     * The estimator of Kelly et al. (1983) for the velocity: jumps of its gradient over the faces. With linear elements
+     * it falls like h^2 where the velocity is smooth, so the size that meets a tolerance is h sqrt(tolerance/estimate).
+     */
+    class VelocityJumpCriterion : public RefinementCriterion
+    {
+    public:
+      void add_parameters(dealii::ParameterHandler &prm) override
+      {
+        prm.add_parameter("Tolerance",
+                          tolerance,
+                          "Kelly's estimate of a cell's error in the velocity may be this much of the largest "
+                          "velocity, [-]. Sizes are let go at 0.7 of what would do.",
+                          dealii::Patterns::Double(1e-6));
+        marks.add_parameters(prm, 0.);
+      }
+
+      void prepare(const RefinementContext &context) override
+      {
+        marks.clear(context);
+        if (context.fluid == nullptr)
+          return;
+        const fluid::FluidSpace<2> &space    = context.fluid->space;
+        const auto                 &velocity = context.fluid->solution.block(0);
+        const double largest = dealii::Utilities::MPI::max(largest_entry(velocity), space.communicator());
+        if (largest == 0.)
+          return;
+        dealii::Vector<float> estimate(space.triangulation().n_active_cells());
+        dealii::KellyErrorEstimator<2>::estimate(space.mapping(),
+                                                 space.dof_handler(),
+                                                 dealii::QGauss<1>(2),
+                                                 {},
+                                                 context.fluid->solution,
+                                                 estimate,
+                                                 dealii::ComponentMask({true, true, false}));
+        unsigned int c = 0;
+        for (const auto &cell : space.triangulation().active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              const auto  &data   = space.cells()[c++];
+              const double error  = estimate[cell->active_cell_index()] / largest;
+              const double wanted = data.size * std::sqrt(tolerance / std::max(error, 1e-12));
+              const Box    box    = box_around(data, space.n_nodes_per_cell());
+              marks.add(box, wanted, Purpose::refine);
+              marks.add(box, hysteresis * wanted, Purpose::coarsen);
+            }
+        marks.finish(space.communicator());
+      }
+
+      double wanted_size(const Box &box, const RefinementContext &, const Purpose purpose) const override
+      {
+        return marks.wanted_size(box, purpose);
+      }
+
+      bool needs_fluid() const override { return true; }
+
+    private:
+      static double largest_entry(const fluid::Vector &vector)
+      {
+        double result = 0.;
+        for (unsigned int i = 0; i < vector.locally_owned_size(); ++i)
+          result = std::max(result, std::abs(vector.local_element(i)));
+        return result;
+      }
+
+      SizeMarks marks;
+      double    tolerance = 0.02;
+    };
+  } // namespace
+
+  ALLUVIUM_REGISTER(
+    RefinementCriterion,
+    VelocityJumpCriterion,
+    "velocity jump",
+    "as fine as Kelly's estimator of the velocity's error asks for: jets, shear layers, boundary layers.")
+} // namespace alluvium::mesh
