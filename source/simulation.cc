@@ -600,6 +600,7 @@ namespace alluvium
       }
     for (const auto &[name, count] : counts)
       summary->set("counts/" + name, count);
+    timers.add(solver.timers);
     const auto phases = timers.slowest(communicator);
     for (const auto &[name, phase] : phases)
       {
@@ -617,7 +618,7 @@ namespace alluvium
       {
         double total = 0.;
         for (const auto &[name, phase] : phases)
-          total += phase.wall;
+          total += name.find(": ") == std::string::npos ? phase.wall : 0.;
         print_timers(std::cout, phases, total);
       }
   }

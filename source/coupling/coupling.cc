@@ -81,6 +81,7 @@ namespace alluvium::coupling
 
   void Coupling::update_void_fraction(const grains::GrainArrays &grains)
   {
+    const auto timer = solver->timers.scope("fluid: overlap");
     map.cut(grains, settings);
     last                = {};
     last.clipped_volume = map.void_fraction(eps);

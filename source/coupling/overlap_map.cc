@@ -229,6 +229,7 @@ namespace alluvium::coupling
           s.grad[i] = {{(reference[i][0] * b[1] - reference[i][1] * a[1]) / det,
                         (-reference[i][0] * b[0] + reference[i][1] * a[0]) / det}};
       }
+    s.full = o.area == polygons[cell].area;
     pieces.shape.push_back(s);
     grain_of_piece.push_back(grain);
   }

@@ -23,8 +23,16 @@ namespace alluvium::coupling
             for (unsigned int d = 0; d < 2; ++d)
               u[v][d] = field.block(0).local_element(cell.velocity[v][d]);
           }
+        std::size_t full = terms.n_pieces(); // all that are the whole cell have the same means
         for (unsigned int k = terms.begin[c]; k < terms.begin[c + 1]; ++k)
           {
+            if (terms.shape[k].full && full < k)
+              {
+                result[k] = result[full];
+                continue;
+              }
+            if (terms.shape[k].full)
+              full = k;
             PieceField f{};
             for (unsigned int v = 0; v < n; ++v)
               for (unsigned int d = 0; d < 2; ++d)

@@ -112,37 +112,34 @@ namespace alluvium::fluid
           }
       }
 
-      /** The terms of the pieces: drag, the solid's share of the pressure gradient, its velocity in the continuity
-       * equation. */
+      /**
+       * The terms of the pieces: drag, the solid's share of the pressure gradient, its velocity in the continuity
+       * equation. Full pieces, most of them where cells are smaller than the filter, are added up first.
+       */
       void add_pieces(LocalMatrix &L) const
       {
+        PieceFactors           full{};
+        const PieceShape<dim> *full_shape = nullptr;
         for (unsigned int k = begin; k < end; ++k)
           {
             const PieceShape<dim>    &s = problem.solid->shape[k];
             const PieceExchange<dim> &x = problem.solid->exchange[k];
-            const double b = x.gamma * x.compliance, drag = s.area * x.gamma * (1. - b), lift = s.area * (1. - b);
-            const double flux_u = pspg * drag - s.area * b, flux_p = s.area * x.compliance - pspg * lift;
-            const std::array<double, n> weight = piece_weight(s);
-            for (unsigned int i = 0; i < n; ++i)
+            const double              b = x.gamma * x.compliance;
+            PieceFactors              f;
+            f.drag   = s.area * x.gamma * (1. - b);
+            f.lift   = s.area * (1. - b);
+            f.flux_u = pspg * f.drag - s.area * b;
+            f.flux_p = s.area * x.compliance - pspg * f.lift;
+            if (s.full)
               {
-                for (unsigned int c = 0; c < dim; ++c)
-                  if (problem.discretisation.lumped_drag)
-                    L[i * (dim + 1) + c][i * (dim + 1) + c] += drag * s.phi[i];
-                const double drag_test = drag * (problem.discretisation.lumped_drag ? weight[i] - s.phi[i] : weight[i]);
-                for (unsigned int j = 0; j < n; ++j)
-                  {
-                    double grad_grad = 0.;
-                    for (unsigned int c = 0; c < dim; ++c)
-                      {
-                        grad_grad += s.grad[i][c] * s.grad[j][c];
-                        L[i * (dim + 1) + c][j * (dim + 1) + c] += drag_test * s.phi[j];
-                        L[i * (dim + 1) + c][j * (dim + 1) + dim] -= lift * weight[i] * s.grad[j][c];
-                        L[i * (dim + 1) + dim][j * (dim + 1) + c] += flux_u * s.grad[i][c] * s.phi[j];
-                      }
-                    L[i * (dim + 1) + dim][j * (dim + 1) + dim] += flux_p * grad_grad;
-                  }
+                full += f;
+                full_shape = &s;
               }
+            else
+              add_shape(s, f, L);
           }
+        if (full_shape)
+          add_shape(*full_shape, full, L);
       }
 
       /** Add the terms known from the mesh: u^n/dt, body force, mass source. */
@@ -187,32 +184,31 @@ namespace alluvium::fluid
       /** Add the terms that the pieces know: a, e and u_ref. */
       void known_pieces(LocalVector &r) const
       {
+        KnownFactors           full{};
+        const PieceShape<dim> *full_shape = nullptr;
         for (unsigned int k = begin; k < end; ++k)
           {
-            const PieceShape<dim>      &s      = problem.solid->shape[k];
-            const PieceExchange<dim>   &x      = problem.solid->exchange[k];
-            const double                b      = x.gamma * x.compliance;
-            const std::array<double, n> weight = piece_weight(s);
+            const PieceShape<dim>    &s = problem.solid->shape[k];
+            const PieceExchange<dim> &x = problem.solid->exchange[k];
+            const double              b = problem.reference[x.reference] ? x.gamma * x.compliance : 0.;
+            KnownFactors              f{};
             for (unsigned int d = 0; d < dim; ++d)
               {
-                std::array<double, n> reference{};
-                double                mean = 0.;
-                if (b != 0. && problem.reference[x.reference])
-                  for (unsigned int v = 0; v < n; ++v)
-                    {
-                      reference[v] = problem.reference[x.reference]->local_element(cell->velocity[v][d]);
-                      mean += reference[v] * s.phi[v];
-                    }
-                const double v_mean = x.a[d] - b * mean, force = s.area * (x.gamma * v_mean - x.e[d]);
-                for (unsigned int i = 0; i < n; ++i)
-                  {
-                    r[i * (dim + 1) + d] += force * weight[i];
-                    if (problem.discretisation.lumped_drag)
-                      r[i * (dim + 1) + d] += s.area * s.phi[i] * x.gamma * b * (mean - reference[i]);
-                    r[i * (dim + 1) + dim] += s.grad[i][d] * (s.area * v_mean + pspg * force);
-                  }
+                f.a[d] = s.area * x.a[d];
+                f.e[d] = s.area * (x.gamma * x.a[d] - x.e[d]);
               }
+            f.flux[x.reference] = s.area * b;
+            f.drag[x.reference] = s.area * x.gamma * b;
+            if (s.full)
+              {
+                full += f;
+                full_shape = &s;
+              }
+            else
+              add_known(s, f, r);
           }
+        if (full_shape)
+          add_known(*full_shape, full, r);
       }
 
       /** Sums over the rows of each equation of the squares of its largest terms: grad p, and eps u.grad q. */
@@ -240,7 +236,111 @@ namespace alluvium::fluid
           }
       }
 
+      /** The cell's values of @p x in the local order. */
+      LocalVector values(const BlockVector &x) const
+      {
+        LocalVector result;
+        for (unsigned int v = 0; v < n; ++v)
+          {
+            for (unsigned int d = 0; d < dim; ++d)
+              result[v * (dim + 1) + d] = x.block(0).local_element(cell->velocity[v][d]);
+            result[v * (dim + 1) + dim] = x.block(1).local_element(cell->pressure[v]);
+          }
+        return result;
+      }
+
     private:
+      /** What a piece's shape is multiplied by in the matrix. */
+      struct PieceFactors
+      {
+        double drag, lift, flux_u, flux_p;
+
+        void operator+=(const PieceFactors &other)
+        {
+          drag += other.drag;
+          lift += other.lift;
+          flux_u += other.flux_u;
+          flux_p += other.flux_p;
+        }
+      };
+
+      /** And among the known terms; those with the reference velocity by reference field. */
+      struct KnownFactors
+      {
+        std::array<double, dim> a, e;
+        std::array<double, 3>   flux, drag;
+
+        void operator+=(const KnownFactors &other)
+        {
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              a[d] += other.a[d];
+              e[d] += other.e[d];
+            }
+          for (unsigned int k = 0; k < flux.size(); ++k)
+            {
+              flux[k] += other.flux[k];
+              drag[k] += other.drag[k];
+            }
+        }
+      };
+
+      void add_shape(const PieceShape<dim> &s, const PieceFactors &f, LocalMatrix &L) const
+      {
+        const std::array<double, n> weight = piece_weight(s);
+        const bool                  lumped = problem.discretisation.lumped_drag;
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            if (lumped)
+              for (unsigned int c = 0; c < dim; ++c)
+                L[i * (dim + 1) + c][i * (dim + 1) + c] += f.drag * s.phi[i];
+            const double drag_test = f.drag * (lumped ? weight[i] - s.phi[i] : weight[i]);
+            for (unsigned int j = 0; j < n; ++j)
+              {
+                double grad_grad = 0.;
+                for (unsigned int c = 0; c < dim; ++c)
+                  {
+                    grad_grad += s.grad[i][c] * s.grad[j][c];
+                    L[i * (dim + 1) + c][j * (dim + 1) + c] += drag_test * s.phi[j];
+                    L[i * (dim + 1) + c][j * (dim + 1) + dim] -= f.lift * weight[i] * s.grad[j][c];
+                    L[i * (dim + 1) + dim][j * (dim + 1) + c] += f.flux_u * s.grad[i][c] * s.phi[j];
+                  }
+                L[i * (dim + 1) + dim][j * (dim + 1) + dim] += f.flux_p * grad_grad;
+              }
+          }
+      }
+
+      void add_known(const PieceShape<dim> &s, const KnownFactors &f, LocalVector &r) const
+      {
+        const std::array<double, n> weight = piece_weight(s);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            double                velocity = f.a[d], force = f.e[d];
+            std::array<double, n> lumped{};
+            for (unsigned int k = 0; k < f.flux.size(); ++k)
+              if (f.flux[k] != 0.)
+                {
+                  std::array<double, n> reference;
+                  double                mean = 0.;
+                  for (unsigned int v = 0; v < n; ++v)
+                    {
+                      reference[v] = problem.reference[k]->local_element(cell->velocity[v][d]);
+                      mean += reference[v] * s.phi[v];
+                    }
+                  velocity -= f.flux[k] * mean;
+                  force -= f.drag[k] * mean;
+                  if (problem.discretisation.lumped_drag)
+                    for (unsigned int i = 0; i < n; ++i)
+                      lumped[i] += f.drag[k] * s.phi[i] * (mean - reference[i]);
+                }
+            for (unsigned int i = 0; i < n; ++i)
+              {
+                r[i * (dim + 1) + d] += force * weight[i] + lumped[i];
+                r[i * (dim + 1) + dim] += s.grad[i][d] * (velocity + pspg * force);
+              }
+          }
+      }
+
       template <typename Values>
       double value(const std::array<double, n> &nodal, const Values &phi) const
       {
@@ -290,6 +390,18 @@ namespace alluvium::fluid
       double                                 pspg = 0., supg = 0.;
     };
 
+    /** Add @p local to the entries of a cell without constraints. */
+    template <int dim, typename LocalVector>
+    void add_to(BlockVector &vector, const CellData<dim> &cell, const LocalVector &local)
+    {
+      for (unsigned int v = 0; v < local.size() / (dim + 1); ++v)
+        {
+          for (unsigned int d = 0; d < dim; ++d)
+            vector.block(0).local_element(cell.velocity[v][d]) += local[v * (dim + 1) + d];
+          vector.block(1).local_element(cell.pressure[v]) += local[v * (dim + 1) + dim];
+        }
+    }
+
     /** Call @p action with the kernel for the mesh's kind of cell. */
     template <int dim, typename Action>
     void with_kernel(const FluidSpace<dim> &space, const VansProblem<dim> &problem, const Action &action)
@@ -321,6 +433,8 @@ namespace alluvium::fluid
                                     Utilities::MPI::this_mpi_process(space->communicator()));
     pattern.compress();
     system_matrix.reinit(pattern);
+    system_matrix.compress(VectorOperation::insert);
+    scatter.reinit(*space, system_matrix);
   }
 
 
@@ -333,6 +447,7 @@ namespace alluvium::fluid
     system_matrix = 0.;
     residual      = 0.;
     known         = 0.;
+    scatter.find_values(system_matrix);
     with_kernel<dim>(*space, problem, [&](auto kernel) {
       using K                                = decltype(kernel);
       constexpr unsigned int               n = K::n_local;
@@ -351,22 +466,23 @@ namespace alluvium::fluid
           kernel.known_mesh(b);
           typename K::LocalVector b_pieces{};
           kernel.known_pieces(b_pieces);
-          std::array<double, n> x;
-          for (unsigned int v = 0; v < n / (dim + 1); ++v)
+          const typename K::LocalVector x = kernel.values(iterate);
+          for (unsigned int r = 0; r < n; ++r)
+            for (unsigned int c = 0; c < n; ++c)
+              b[r] -= L[r][c] * x[c];
+          if (scatter.serves(i))
             {
-              for (unsigned int d = 0; d < dim; ++d)
-                x[v * (dim + 1) + d] = iterate.block(0).local_element(cell.velocity[v][d]);
-              x[v * (dim + 1) + dim] = iterate.block(1).local_element(cell.pressure[v]);
+              scatter.add(i, L);
+              add_to(residual, cell, b);
+              if (kernel.has_pieces())
+                add_to(known, cell, b_pieces);
+              continue;
             }
           for (unsigned int r = 0; r < n; ++r)
             {
-              double sum = b[r];
               for (unsigned int c = 0; c < n; ++c)
-                {
-                  sum -= L[r][c] * x[c];
-                  local_matrix(r, c) = L[r][c];
-                }
-              local_residual(r) = sum;
+                local_matrix(r, c) = L[r][c];
+              local_residual(r) = b[r];
               local_known(r)    = b_pieces[r];
               local_dofs[r]     = cell.dofs[r];
             }
@@ -447,22 +563,18 @@ namespace alluvium::fluid
       typename K::LocalVector b;
       for (const auto &[i, weight] : space->weights_at(id))
         {
-          const CellData<dim> &cell = space->cells()[i];
           kernel.reinit(i);
           kernel.matrix(L);
           b.fill(0.);
           kernel.known_mesh(b);
           kernel.known_pieces(b);
+          const typename K::LocalVector x = kernel.values(solution);
           for (unsigned int v = 0; v < n / (dim + 1); ++v)
             {
               const unsigned int row = v * (dim + 1) + dim;
               double             r   = b[row];
-              for (unsigned int w = 0; w < n / (dim + 1); ++w)
-                {
-                  for (unsigned int d = 0; d < dim; ++d)
-                    r -= L[row][w * (dim + 1) + d] * solution.block(0).local_element(cell.velocity[w][d]);
-                  r -= L[row][w * (dim + 1) + dim] * solution.block(1).local_element(cell.pressure[w]);
-                }
+              for (unsigned int c = 0; c < n; ++c)
+                r -= L[row][c] * x[c];
               sum += weight[v] * r;
             }
         }
@@ -483,24 +595,20 @@ namespace alluvium::fluid
       typename K::LocalVector r;
       for (unsigned int i = 0; i < space->cells().size(); ++i)
         {
-          const CellData<dim> &cell = space->cells()[i];
           kernel.reinit(i);
           for (auto &row : L)
             row.fill(0.);
           r.fill(0.);
           kernel.add_pieces(L);
           kernel.known_pieces(r);
+          const typename K::LocalVector x = kernel.values(solution);
           for (unsigned int v = 0; v < n / (dim + 1); ++v)
             for (unsigned int d = 0; d < dim; ++d)
               {
                 const unsigned int row = v * (dim + 1) + d;
                 sum[d] += r[row];
-                for (unsigned int w = 0; w < n / (dim + 1); ++w)
-                  {
-                    for (unsigned int e = 0; e < dim; ++e)
-                      sum[d] -= L[row][w * (dim + 1) + e] * solution.block(0).local_element(cell.velocity[w][e]);
-                    sum[d] -= L[row][w * (dim + 1) + dim] * solution.block(1).local_element(cell.pressure[w]);
-                  }
+                for (unsigned int c = 0; c < n; ++c)
+                  sum[d] -= L[row][c] * x[c];
               }
         }
     });

@@ -77,7 +77,10 @@ namespace alluvium::fluid
   template <int dim>
   void VansSolver<dim>::solve()
   {
-    assembler.assemble(current, iterate, residual, known);
+    {
+      const auto timer = timers.scope("fluid: assembly");
+      assembler.assemble(current, iterate, residual, known);
+    }
     report = {};
     solve_increment();
   }
@@ -98,6 +101,7 @@ namespace alluvium::fluid
   template <int dim>
   void VansSolver<dim>::solve_increment()
   {
+    const auto timer = timers.scope("fluid: linear solver");
     // the terms' sizes are known from the last iterate; if they turn out much smaller, the tolerance was too loose:
     // once more
     for (unsigned int attempt = 0; attempt < 3; ++attempt)

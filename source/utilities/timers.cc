@@ -54,6 +54,17 @@ namespace alluvium
     return result;
   }
 
+  void Timers::add(const Timers &others)
+  {
+    for (const auto &[name, other] : others.phases)
+      {
+        Phase &phase = phases[name];
+        phase.wall += other.wall;
+        phase.cpu += other.cpu;
+        phase.calls += other.calls;
+      }
+  }
+
   void print_timers(std::ostream &out, const std::map<std::string, Timers::Phase> &phases, const double total)
   {
     std::vector<std::pair<std::string, Timers::Phase>> sorted(phases.begin(), phases.end());

@@ -17,6 +17,7 @@ namespace alluvium::fluid
     double                                              area; // [m^2], weights included
     std::array<double, max_nodes<dim>>                  phi;  // mean of each nodal shape function over the piece
     std::array<std::array<double, dim>, max_nodes<dim>> grad; // its gradient at the piece's centroid [1/m]
+    bool full = false; // the piece is the whole cell: all full pieces of a cell have the same phi and grad
   };
 
   /**

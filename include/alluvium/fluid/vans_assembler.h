@@ -1,6 +1,7 @@
 #pragma once
 
 #include <alluvium/fluid/fluid_space.h>
+#include <alluvium/fluid/matrix_scatter.h>
 
 #include <deal.II/lac/trilinos_block_sparse_matrix.h>
 
@@ -82,5 +83,6 @@ namespace alluvium::fluid
   private:
     const FluidSpace<dim>                      *space;
     dealii::TrilinosWrappers::BlockSparseMatrix system_matrix;
+    MatrixScatter<dim>                          scatter;
   };
 } // namespace alluvium::fluid

@@ -2,6 +2,7 @@
 
 #include <alluvium/fluid/linear_solver.h>
 #include <alluvium/fluid/vans_assembler.h>
+#include <alluvium/utilities/timers.h>
 
 namespace alluvium::fluid
 {
@@ -67,6 +68,7 @@ namespace alluvium::fluid
     dealii::Tensor<1, dim> gravity;
     Discretisation         discretisation;
     LinearSolver           linear_solver;
+    Timers                 timers; // phases "fluid: ..."
 
   private:
     void                  solve_with_new_known_terms();

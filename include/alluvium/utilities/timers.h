@@ -35,6 +35,9 @@ namespace alluvium
     /** `const auto timer = timers.scope("contacts");` */
     [[nodiscard]] Scope scope(const std::string &phase) { return Scope(phases[phase]); }
 
+    /** Add the phases of @p others. */
+    void add(const Timers &others);
+
     const std::map<std::string, Phase> &all() const { return phases; }
 
     /** Each phase of the rank that took longest for it, on every rank. Collective. */
@@ -44,6 +47,6 @@ namespace alluvium
     std::map<std::string, Phase> phases; // a map: references to its elements stay good
   };
 
-  /** A table, the dearest phase first, with shares of @p total wall seconds. */
+  /** A table, the dearest phase first, with shares of @p total wall seconds. A name `a: b` tells of a part of phase a. */
   void print_timers(std::ostream &out, const std::map<std::string, Timers::Phase> &phases, double total);
 } // namespace alluvium
