@@ -38,12 +38,13 @@ namespace alluvium::fluid
       }
     };
 
-    /** SIMPLE: u* = A^-1 r_u, p = S^-1 (r_p - C u*), u = A^-1 (r_u - B p), with ILU and a V-cycle as the inverses. */
+    /** SIMPLE: u* = A^-1 r_u, p = S^-1 (r_p - C u*), u = u* - diag(A)^-1 B p, with ILU and a V-cycle as the inverses. */
     struct Simple
     {
       const TrilinosWrappers::BlockSparseMatrix &matrix;
       const TrilinosWrappers::PreconditionILU   &velocity;
       const TrilinosWrappers::PreconditionAMG   &pressure;
+      const std::vector<double>                 &inverse_diagonal; // of -A
       double                                     scale;
       mutable BlockVector                        r;
 
@@ -54,8 +55,8 @@ namespace alluvium::fluid
         r.block(1).sadd(-1., 1. / scale, src.block(1));
         pressure.vmult(dst.block(1), r.block(1));
         matrix.block(0, 1).vmult(r.block(0), dst.block(1));
-        r.block(0).sadd(-1., 1., src.block(0));
-        velocity.vmult(dst.block(0), r.block(0));
+        for (unsigned int i = 0; i < inverse_diagonal.size(); ++i)
+          dst.block(0).local_element(i) += inverse_diagonal[i] * r.block(0).local_element(i);
       }
     };
   } // namespace
@@ -96,9 +97,13 @@ namespace alluvium::fluid
     const auto &A = matrix.block(0, 0);
     velocity.initialize(A);
 
+    negative_inverse_diagonal.clear();
     TrilinosWrappers::MPI::Vector inverse_diagonal(A.locally_owned_range_indices(), A.get_mpi_communicator());
     for (const auto i : A.locally_owned_range_indices())
-      inverse_diagonal(i) = -1. / A.diag_element(i);
+      {
+        negative_inverse_diagonal.push_back(-1. / A.diag_element(i));
+        inverse_diagonal(i) = negative_inverse_diagonal.back();
+      }
     inverse_diagonal.compress(VectorOperation::insert);
     TrilinosWrappers::SparseMatrix product;
     matrix.block(1, 0).mmult(product, matrix.block(0, 1), inverse_diagonal);
@@ -147,7 +152,7 @@ namespace alluvium::fluid
         data.max_n_tmp_vectors     = 60;
         data.right_preconditioning = true;
         SolverGMRES<BlockVector> gmres(control, data);
-        const Simple             preconditioner{matrix, velocity, pressure, ratio, rhs};
+        const Simple             preconditioner{matrix, velocity, pressure, negative_inverse_diagonal, ratio, rhs};
         x     = 0.;
         retry = false;
         try

@@ -48,6 +48,7 @@ namespace alluvium::fluid
 
     bool                                      fresh = false, exists = false;
     unsigned int                              n_when_fresh = 0;
+    std::vector<double>                       negative_inverse_diagonal; // -1/diag(A), owned rows
     std::unique_ptr<Epetra_CrsMatrix>         schur;
     dealii::TrilinosWrappers::PreconditionILU velocity;
     dealii::TrilinosWrappers::PreconditionAMG pressure;
