@@ -642,8 +642,9 @@ namespace alluvium
       {
         mesh::FluidCheckpoint<dim>(folder_new)
           .save(space.dof_handler(), {&solver.solution()}, space.nodal_dof_handler(), {});
-        // ... and with a fresh preconditioner
+        // ... with a fresh preconditioner, and with all grains cut anew
         solver.linear_solver.clear();
+        coupling.forget_positions();
       }
     std::string text;
     if (speaks)

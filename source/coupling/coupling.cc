@@ -30,6 +30,11 @@ namespace alluvium::coupling
       "How shape functions are integrated over the pieces of a grain: `centroid` (the paper: at the piece's centroid, "
       "exact for linear functions) or `moments` (with second moments: exact for bilinear functions on parallelograms).",
       Patterns::Selection("centroid|moments"));
+    prm.add_parameter("Overlap tolerance",
+                      settings.tolerance,
+                      "A grain that has moved by less than this times its diameter keeps its pieces; in a bed at rest "
+                      "nothing is cut. At 0 every grain that moved at all is cut.",
+                      Patterns::Double(0., 0.1));
     prm.add_parameter(
       "Minimal void fraction in the drag",
       eps_floor,
@@ -82,7 +87,11 @@ namespace alluvium::coupling
   void Coupling::update_void_fraction(const grains::GrainArrays &grains)
   {
     const auto timer = solver->timers.scope("fluid: overlap");
-    map.cut(grains, settings);
+    if (!map.cut(grains, settings))
+      {
+        last = of_void_fraction;
+        return;
+      }
     last                = {};
     last.clipped_volume = map.void_fraction(eps);
     double low = 1., high = 0.;
@@ -91,9 +100,10 @@ namespace alluvium::coupling
         low  = std::min(low, eps.local_element(i));
         high = std::max(high, eps.local_element(i));
       }
-    last.eps_min  = Utilities::MPI::min(low, space->communicator());
-    last.eps_max  = Utilities::MPI::max(high, space->communicator());
-    last.n_pieces = Utilities::MPI::sum(map.grain().size(), space->communicator());
+    last.eps_min     = Utilities::MPI::min(low, space->communicator());
+    last.eps_max     = Utilities::MPI::max(high, space->communicator());
+    last.n_pieces    = Utilities::MPI::sum(map.grain().size(), space->communicator());
+    of_void_fraction = last;
   }
 
 

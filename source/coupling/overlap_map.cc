@@ -19,10 +19,13 @@ namespace alluvium::coupling
       std::vector<double>       x, y;
       std::vector<unsigned int> grain; // the one it is an image of
 
-      GrainImages(const grains::GrainArrays &grains, const double reach, const fluid::FluidSpace<2>::PeriodicBox &box)
-        : x(grains.x)
-        , y(grains.y)
-        , grain(grains.n())
+      GrainImages(const std::vector<double>               &grain_x,
+                  const std::vector<double>               &grain_y,
+                  const double                             reach,
+                  const fluid::FluidSpace<2>::PeriodicBox &box)
+        : x(grain_x)
+        , y(grain_y)
+        , grain(grain_x.size())
       {
         std::iota(grain.begin(), grain.end(), 0u);
         for (unsigned int d = 0; d < 2; ++d)
@@ -85,6 +88,23 @@ namespace alluvium::coupling
         std::sort(found.begin(), found.end());
       }
 
+      /** Note that something changed at (x, y). */
+      void mark(const double x, const double y)
+      {
+        marked.resize(begin.size() - 1, 0);
+        marked[index(y, 1) * n[0] + index(x, 0)] = 1;
+      }
+
+      /** Did anything change in the box? */
+      bool is_marked(const std::array<double, 2> &low, const std::array<double, 2> &high) const
+      {
+        const int i0 = index(low[0], 0), i1 = index(high[0], 0);
+        for (int j = index(low[1], 1); j <= index(high[1], 1); ++j)
+          if (std::any_of(marked.begin() + j * n[0] + i0, marked.begin() + j * n[0] + i1 + 1, [](auto m) { return m; }))
+            return true;
+        return false;
+      }
+
     private:
       int index(const double x, const unsigned int d) const
       {
@@ -95,6 +115,7 @@ namespace alluvium::coupling
       std::array<double, 2>     lower;
       std::array<int, 2>        n;
       std::vector<unsigned int> begin, member;
+      std::vector<std::uint8_t> marked;
     };
   } // namespace
 
@@ -107,6 +128,7 @@ namespace alluvium::coupling
   void OverlapMap::reinit()
   {
     polygons.clear();
+    forget_positions();
     const unsigned int n = space->n_nodes_per_cell();
     for (const auto &cell : space->cells())
       {
@@ -120,50 +142,108 @@ namespace alluvium::coupling
   }
 
 
-  void OverlapMap::cut(const grains::GrainArrays &grains, const OverlapSettings &settings)
+  std::vector<std::uint8_t> OverlapMap::find_moved(const grains::GrainArrays &grains, const OverlapSettings &settings)
   {
+    const std::size_t   n = grains.n();
+    std::vector<double> radius(n);
+    for (std::size_t g = 0; g < n; ++g)
+      radius[g] = settings.filter_radius > 0. ? 2. * settings.filter_radius * grains.radius[g] : grains.fluid_radius[g];
+
+    std::vector<std::uint8_t> moved(n, 1);
+    if (position.x.size() == n && cut_with.rule == settings.rule && position.radius == radius &&
+        position.fluid_radius == grains.fluid_radius)
+      for (std::size_t g = 0; g < n; ++g)
+        moved[g] = std::max(std::abs(grains.x[g] - position.x[g]), std::abs(grains.y[g] - position.y[g])) >
+                   2. * settings.tolerance * grains.radius[g];
+    else
+      position = {grains.x, grains.y, radius, grains.fluid_radius};
+    cut_with = settings;
+    return moved;
+  }
+
+
+  bool OverlapMap::cut(const grains::GrainArrays &grains, const OverlapSettings &settings)
+  {
+    const std::vector<std::uint8_t> moved = find_moved(grains, settings);
+    if (std::none_of(moved.begin(), moved.end(), [](auto m) { return m; }))
+      return false;
+
+    const double    max_radius = *std::max_element(position.radius.begin(), position.radius.end());
+    const bool      all        = std::all_of(moved.begin(), moved.end(), [](auto m) { return m; });
+    const auto      box        = space->periodic_box();
+    const Positions before     = all ? Positions() : position;
+    for (std::size_t g = 0; g < grains.n(); ++g)
+      if (moved[g])
+        {
+          position.x[g] = grains.x[g];
+          position.y[g] = grains.y[g];
+        }
+    const GrainImages images(position.x, position.y, max_radius, box);
+    GrainBins         bins(images.x, images.y, max_radius);
+    if (!all)
+      {
+        const auto mark = [&](const GrainImages &now) {
+          for (std::size_t k = 0; k < now.x.size(); ++k)
+            if (moved[now.grain[k]])
+              bins.mark(now.x[k], now.y[k]);
+        };
+        mark(GrainImages(before.x, before.y, max_radius, box));
+        mark(images);
+      }
+
+    const fluid::InterphaseTerms<dim> old_pieces = std::move(pieces);
+    const std::vector<unsigned int>   old_grain  = std::move(grain_of_piece);
+    const std::vector<double>         old_area   = std::move(raw_area);
     pieces.begin.assign(1, 0);
     pieces.shape.clear();
+    pieces.shape.reserve(old_pieces.shape.size());
     grain_of_piece.clear();
-    std::vector<double> radius(grains.n());
-    for (std::size_t g = 0; g < grains.n(); ++g)
-      radius[g] = settings.filter_radius > 0. ? 2. * settings.filter_radius * grains.radius[g] : grains.fluid_radius[g];
-    const double max_radius = *std::max_element(radius.begin(), radius.end());
-
-    const GrainImages         images(grains, max_radius, space->periodic_box());
-    const GrainBins           bins(images.x, images.y, max_radius);
+    grain_of_piece.reserve(old_grain.size());
+    raw_area.clear();
+    raw_area.reserve(old_area.size());
     std::vector<unsigned int> candidates;
-    std::vector<double>       area(grains.n(), 0.);
     for (unsigned int c = 0; c < polygons.size(); ++c)
       {
-        const auto &polygon = polygons[c];
-        bins.find({{polygon.lower[0] - max_radius, polygon.lower[1] - max_radius}},
-                  {{polygon.upper[0] + max_radius, polygon.upper[1] + max_radius}},
-                  candidates);
-        for (const unsigned int k : candidates)
+        const auto                 &polygon = polygons[c];
+        const std::array<double, 2> low     = {{polygon.lower[0] - max_radius, polygon.lower[1] - max_radius}},
+                                    high    = {{polygon.upper[0] + max_radius, polygon.upper[1] + max_radius}};
+        if (all || bins.is_marked(low, high))
           {
-            const unsigned int      g = images.grain[k];
-            const geometry::Overlap o = geometry::overlap({{{images.x[k], images.y[k]}}, radius[g]}, polygon);
-            if (o.area > 0.)
+            bins.find(low, high, candidates);
+            for (const unsigned int k : candidates)
               {
-                area[g] += o.area;
-                add_piece(c, g, o, settings.rule == OverlapSettings::Rule::moments);
+                const unsigned int      g = images.grain[k];
+                const geometry::Overlap o =
+                  geometry::overlap({{{images.x[k], images.y[k]}}, position.radius[g]}, polygon);
+                if (o.area > 0.)
+                  add_piece(c, g, o, settings.rule == OverlapSettings::Rule::moments);
               }
+          }
+        else
+          {
+            const auto from = old_pieces.begin[c], to = old_pieces.begin[c + 1];
+            pieces.shape.insert(pieces.shape.end(), old_pieces.shape.begin() + from, old_pieces.shape.begin() + to);
+            grain_of_piece.insert(grain_of_piece.end(), old_grain.begin() + from, old_grain.begin() + to);
+            raw_area.insert(raw_area.end(), old_area.begin() + from, old_area.begin() + to);
           }
         pieces.begin.push_back(pieces.shape.size());
       }
     pieces.exchange.resize(pieces.shape.size());
 
-    sum_over_ranks(area);
+    std::vector<double> weight(grains.n(), 0.);
+    for (std::size_t k = 0; k < raw_area.size(); ++k)
+      weight[grain_of_piece[k]] += raw_area[k];
+    sum_over_ranks(weight);
     for (std::size_t g = 0; g < grains.n(); ++g)
       {
-        check_user(area[g] > 0.,
+        check_user(weight[g] > 0.,
                    "Grain " + std::to_string(grains.id[g]) + " at (" + std::to_string(grains.x[g]) + ", " +
                      std::to_string(grains.y[g]) + ") m has left the fluid's domain.");
-        area[g] = numbers::PI * grains.fluid_radius[g] * grains.fluid_radius[g] / area[g];
+        weight[g] = numbers::PI * grains.fluid_radius[g] * grains.fluid_radius[g] / weight[g];
       }
-    for (std::size_t k = 0; k < pieces.shape.size(); ++k)
-      pieces.shape[k].area *= area[grain_of_piece[k]];
+    for (std::size_t k = 0; k < raw_area.size(); ++k)
+      pieces.shape[k].area = raw_area[k] * weight[grain_of_piece[k]];
+    return true;
   }
 
 
@@ -232,6 +312,7 @@ namespace alluvium::coupling
     s.full = o.area == polygons[cell].area;
     pieces.shape.push_back(s);
     grain_of_piece.push_back(grain);
+    raw_area.push_back(o.area);
   }
 
 

@@ -42,6 +42,9 @@ namespace alluvium::coupling
     /** Cut @p grains and find the void fraction; step() does it by itself. */
     void update_void_fraction(const grains::GrainArrays &grains);
 
+    /** Cut all grains anew in the next step, whether they moved or not. */
+    void forget_positions() { map.forget_positions(); }
+
     /**
      * Solve the fluid from t^n to t^n + @p dt and fill @p loads. @p boundary_conditions are at the new time. @p fixed
      * grains neither move nor yield. Collective.
@@ -88,7 +91,7 @@ namespace alluvium::coupling
     OverlapMap                         map;
     fluid::Vector                      eps;
     fluid::BlockVector                 latest_sweep;
-    CouplingReport                     last;
+    CouplingReport                     last, of_void_fraction;
     std::vector<std::array<double, 2>> force, predicted;
   };
 } // namespace alluvium::coupling

@@ -17,6 +17,8 @@ namespace alluvium::coupling
     };
     double filter_radius = 2.; // in contact diameters; 0: the grain's own fluid radius
     Rule   rule          = Rule::moments;
+    /** A grain that has moved by less than this [contact diameters] since it was cut is not cut again. */
+    double tolerance = 1e-6;
   };
 
   /**
@@ -34,8 +36,14 @@ namespace alluvium::coupling
     /** Prepare the cells' polygons; call after every FluidSpace::reinit(). */
     void reinit();
 
-    /** Cut @p grains. Throws UserError for a grain that touches no cell on any rank. Collective. */
-    void cut(const grains::GrainArrays &grains, const OverlapSettings &settings);
+    /**
+     * Cut @p grains: those that moved, in the cells near them; the other pieces are kept. Throws UserError for a grain
+     * that touches no cell on any rank. Returns whether anything is other than it was. Collective.
+     */
+    bool cut(const grains::GrainArrays &grains, const OverlapSettings &settings);
+
+    /** Cut all grains anew next time, for the same bits whether a run was interrupted or not. */
+    void forget_positions() { position = {}; }
 
     /** The pieces; their exchange terms are the time scheme's to fill. */
     fluid::InterphaseTerms<dim>       &terms() { return pieces; }
@@ -54,6 +62,8 @@ namespace alluvium::coupling
     void sum_over_ranks(std::vector<double> &per_grain) const;
 
   private:
+    /** Bring @p position up to date; which grains moved. */
+    std::vector<std::uint8_t> find_moved(const grains::GrainArrays &grains, const OverlapSettings &settings);
     void
     add_piece(const unsigned int cell, const unsigned int grain, const geometry::Overlap &overlap, const bool moments);
 
@@ -61,5 +71,14 @@ namespace alluvium::coupling
     std::vector<geometry::PreparedPolygon> polygons;
     fluid::InterphaseTerms<dim>            pieces;
     std::vector<unsigned int>              grain_of_piece;
+    std::vector<double>                    raw_area; // of each piece, before weights [m^2]
+
+    /** The discs as they were cut; empty: nothing is. */
+    struct Positions
+    {
+      std::vector<double> x, y, radius, fluid_radius;
+    };
+    Positions       position;
+    OverlapSettings cut_with;
   };
 } // namespace alluvium::coupling

@@ -1,0 +1,83 @@
+#include "bed.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace
+{
+  using namespace bed;
+
+  /** The pieces of @p grains, cut at once. */
+  coupling::OverlapMap cut_at_once(const fluid::FluidSpace<2> &space, const grains::GrainArrays &grains)
+  {
+    coupling::OverlapMap map(space);
+    map.reinit();
+    map.cut(grains, {});
+    return map;
+  }
+
+  void expect_same(const coupling::OverlapMap &a, const coupling::OverlapMap &b)
+  {
+    ASSERT_EQ(a.terms().begin, b.terms().begin);
+    ASSERT_EQ(a.grain(), b.grain());
+    for (std::size_t k = 0; k < a.grain().size(); ++k)
+      {
+        EXPECT_EQ(a.terms().shape[k].area, b.terms().shape[k].area);
+        EXPECT_EQ(a.terms().shape[k].phi, b.terms().shape[k].phi);
+        EXPECT_EQ(a.terms().shape[k].grad, b.terms().shape[k].grad);
+      }
+  }
+
+  /** Some grains move a little, far, or over a seam; the rest keeps its pieces. */
+  void keeps_what_stands(const bool periodic)
+  {
+    Bed      bed = random_bed(1, 20., 10.);
+    Settings settings;
+    settings.periodic = periodic;
+    Channel              channel(bed.width, bed.height, bed.d, settings, 0.);
+    coupling::OverlapMap map(channel.space);
+    map.reinit();
+    EXPECT_TRUE(map.cut(bed.grains, {}));
+    EXPECT_FALSE(map.cut(bed.grains, {}));
+
+    std::mt19937                           random(7);
+    std::uniform_real_distribution<double> uniform(0., 1.);
+    auto                                  &g = bed.grains;
+    for (unsigned int round = 0; round < 3; ++round)
+      {
+        for (unsigned int k = 0; k < 5; ++k)
+          {
+            const auto i = static_cast<std::size_t>(uniform(random) * g.n());
+            g.x[i]       = round == 2 && periodic ? 0.01 * bed.width : bed.width * uniform(random);
+            g.y[i] += 0.1 * bed.d * (uniform(random) - 0.5);
+          }
+        EXPECT_TRUE(map.cut(g, {}));
+        expect_same(map, cut_at_once(channel.space, g));
+      }
+
+    // less than the tolerance is not seen, its sum is
+    const coupling::OverlapSettings tolerant{2., coupling::OverlapSettings::Rule::moments, 1e-3};
+    g.x[3] += 0.8e-3 * 2. * g.radius[3];
+    EXPECT_FALSE(map.cut(g, tolerant));
+    g.x[3] += 0.8e-3 * 2. * g.radius[3];
+    EXPECT_TRUE(map.cut(g, tolerant));
+    expect_same(map, cut_at_once(channel.space, g));
+
+    // other discs are other pieces
+    const coupling::OverlapSettings wider{3., coupling::OverlapSettings::Rule::moments, 1e-3};
+    const std::size_t               n = map.grain().size();
+    EXPECT_TRUE(map.cut(g, wider));
+    EXPECT_GT(map.grain().size(), n);
+  }
+
+  TEST(OverlapMap, KeepsThePiecesOfGrainsThatStand)
+  {
+    keeps_what_stands(false);
+  }
+
+  TEST(OverlapMap, KeepsThePiecesOfGrainsThatStandBesideSeams)
+  {
+    keeps_what_stands(true);
+  }
+} // namespace
