@@ -411,7 +411,7 @@ namespace alluvium
     const double dt = parameters.time_step;
     if (has_fluid)
       {
-        if ((grains_move || adaptivity.needs_fluid()) && adaptivity.due(n_steps))
+        if (adaptivity.due(n_steps))
           adapt_mesh();
         const auto timer = timers.scope("fluid");
         boundary_conditions.set_time(time + dt);

@@ -28,18 +28,24 @@ namespace alluvium::fluid
         , problem(problem)
       {}
 
+      /** Look at a cell's void fraction only: enough for term_squares(). */
+      void reinit_void_fraction(const unsigned int index)
+      {
+        cell = &space.cells()[index];
+        for (unsigned int v = 0; v < n; ++v)
+          eps[v] = problem.void_fraction->local_element(cell->node[v]);
+      }
+
       /** Read the cell's nodal values and find tau. */
       void reinit(const unsigned int index)
       {
-        cell_index      = index;
-        cell            = &space.cells()[index];
+        reinit_void_fraction(index);
         begin           = problem.solid->begin.empty() ? 0 : problem.solid->begin[index];
         end             = problem.solid->begin.empty() ? 0 : problem.solid->begin[index + 1];
         double eps_mean = 0., u_norm = 0.;
         u_mean = {};
         for (unsigned int v = 0; v < n; ++v)
           {
-            eps[v] = problem.void_fraction->local_element(cell->node[v]);
             eps_mean += eps[v] / n;
             for (unsigned int d = 0; d < dim; ++d)
               {
@@ -382,7 +388,7 @@ namespace alluvium::fluid
       const FluidSpace<dim>  &space;
       const VansProblem<dim> &problem;
 
-      unsigned int                           cell_index = 0, begin = 0, end = 0;
+      unsigned int                           begin = 0, end = 0;
       const CellData<dim>                   *cell = nullptr;
       std::array<double, n>                  eps;
       std::array<std::array<double, dim>, n> u_old;
@@ -626,7 +632,7 @@ namespace alluvium::fluid
     with_kernel<dim>(*space, problem, [&](auto kernel) {
       for (unsigned int i = 0; i < space->cells().size(); ++i)
         {
-          kernel.reinit(i);
+          kernel.reinit_void_fraction(i);
           kernel.term_squares(iterate, momentum, continuity);
         }
     });
