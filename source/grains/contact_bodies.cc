@@ -1,4 +1,5 @@
 #include <alluvium/grains/contact_bodies.h>
+#include <alluvium/grains/contact_reductions.h>
 
 #include <cmath>
 
@@ -42,5 +43,17 @@ namespace alluvium::grains
           second = s;
       }
     return {{std::sqrt(first), std::sqrt(second)}};
+  }
+
+  double root_mean_square_speed(const std::vector<Disc>   &velocities,
+                                const std::size_t          n,
+                                const std::size_t          n_all,
+                                ContactCommunicator *const communicator)
+  {
+    const auto sum = sum_over_ranks<1>(communicator, n, n_all, [&](const std::size_t k) {
+      const Disc &v = velocities[k];
+      return std::array<double, 1>{{v.x * v.x + v.y * v.y}};
+    });
+    return std::sqrt(sum[0] / n_all);
   }
 } // namespace alluvium::grains

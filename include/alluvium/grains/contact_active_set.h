@@ -4,6 +4,7 @@
 #include <alluvium/grains/contact_material.h>
 #include <alluvium/grains/contact_neighbours.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -12,6 +13,10 @@ namespace alluvium::grains
   /** The lengths and speeds that decide which pairs take part in a sub-step, and how overlaps open. */
   struct ContactMargins
   {
+    std::array<double, 2> start_speeds{};  // the two largest of all grains at its start [m/s]
+    double                mean_speed = 0.; // and the root mean square of all
+    double                wall_speed = 0.; // of the fastest wall
+
     double h          = 0.;    // length of the sub-step [s]
     double base_h     = 0.;    // and of an unhalved one
     double delta      = 0.;    // gaps and overlaps below this count as closed [m]

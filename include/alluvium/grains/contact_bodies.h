@@ -27,4 +27,11 @@ namespace alluvium::grains
 
   /** The largest and the second largest speed of the first @p n of @p velocities [m/s]. */
   std::array<double, 2> largest_speeds(const std::vector<Disc> &velocities, std::size_t n);
+
+  /** Root mean square of the speeds of the @p n_all discs of all ranks, of which this one has @p n [m/s]. Collective.
+   */
+  double root_mean_square_speed(const std::vector<Disc> &velocities,
+                                std::size_t              n,
+                                std::size_t              n_all,
+                                ContactCommunicator     *communicator);
 } // namespace alluvium::grains

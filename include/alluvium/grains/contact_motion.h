@@ -1,0 +1,47 @@
+#pragma once
+
+#include <alluvium/grains/contact_active_set.h>
+#include <alluvium/grains/contact_bonds.h>
+#include <alluvium/grains/contact_work.h>
+
+#include <array>
+#include <vector>
+
+namespace alluvium::grains
+{
+  /** Moves grains with the impulses of a solved sub-step, and keeps account of what they and the walls got. */
+  class ContactMotion
+  {
+  public:
+    /** Start a step. */
+    void reset(std::size_t n_walls) { on_wall.assign(n_walls, {{0., 0.}}); }
+
+    /**
+     * Final velocities from the impulses of @p problem themselves, so that momentum is balanced to round-off; positions
+     * from them; impulses are added to the grains' fcx, fcy. Returns how many contacts of this rank carry something.
+     * Collective.
+     */
+    unsigned int move(const ContactProblem   &problem,
+                      const ContactActiveSet &active,
+                      const ContactBodies    &bodies,
+                      const ContactBonds     &bonds,
+                      double                  h,
+                      bool                    rotation,
+                      ContactWork            &work);
+
+    /** What each wall segment got in the step up to now [N s/m]. */
+    const std::vector<std::array<double, 2>> &wall_impulses() const { return on_wall; }
+
+  private:
+    struct WallImpulse
+    {
+      std::size_t           wall;
+      std::array<double, 2> impulse;
+    };
+    std::vector<std::array<double, 2>> on_wall;
+    std::vector<WallImpulse>           from_contacts; // of a sub-step
+    std::vector<double>                px, py, ps;    // on the grains in a sub-step [N s/m]
+
+    void add_wall_impulses(ContactCommunicator *communicator);
+  };
+} // namespace alluvium::grains

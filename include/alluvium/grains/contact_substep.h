@@ -1,0 +1,82 @@
+#pragma once
+
+#include <alluvium/grains/cohesion.h>
+#include <alluvium/grains/contact_active_set.h>
+#include <alluvium/grains/contact_bodies.h>
+#include <alluvium/grains/contact_bonds.h>
+#include <alluvium/grains/contact_material.h>
+#include <alluvium/grains/contact_motion.h>
+#include <alluvium/grains/contact_report.h>
+#include <alluvium/grains/contact_scales.h>
+#include <alluvium/grains/contact_settings.h>
+#include <alluvium/grains/contact_solver.h>
+#include <alluvium/grains/contact_work.h>
+
+#include <vector>
+
+namespace alluvium::grains
+{
+  /** Takes the sub-steps of a contact step: one solve, perhaps a second one, or two halves. */
+  class ContactSubstep
+  {
+  public:
+    /** What stays the same in all sub-steps of a step. */
+    struct Step
+    {
+      ContactScales        scales;
+      ContactMaterials     materials;
+      const ContactSolver *solver   = nullptr;
+      const Cohesion      *cohesion = nullptr; // none
+      double               base_h   = 0.;      // length of an unhalved sub-step [s]
+    };
+
+    ContactSubstep(const ContactSettings &settings, ContactWork &work)
+      : settings(settings)
+      , work(work)
+    {}
+
+    void begin(Step new_step);
+
+    /** One unhalved sub-step. Collective, as all of this. */
+    void advance(ContactReport &report) { advance(step.base_h, 0, report); }
+
+    /** Fill what @p report says of the end of the step. */
+    void finish(ContactReport &report) const;
+
+    /** What each wall segment got in the step up to now [N s/m]. */
+    const std::vector<std::array<double, 2>> &wall_impulses() const { return motion.wall_impulses(); }
+
+  private:
+    /** What a solve came to. */
+    struct Outcome
+    {
+      ContactSolution solution;
+      double          speed   = 0.;    // of the fastest grain [m/s]
+      bool            too_far = false; // it moves farther than it may
+    };
+
+    const ContactSettings &settings;
+    ContactWork           &work;
+    Step                   step;
+
+    // Of the sub-step
+    ContactProblem      problem;
+    ContactBodies       bodies;
+    ContactActiveSet    active;
+    ContactBonds        bonds;
+    ContactMargins      margins;
+    double              slack = 0.; // how far two grains may approach before a pair is missed [m]
+    std::vector<double> weight;     // what the loads give each grain along gravity [N s/m]
+
+    ContactMotion motion;
+
+    void             advance(double h, unsigned int level, ContactReport &report);
+    void             set_margins(double h);
+    void             search_if_due();
+    void             set_problem(bool keep);
+    ContactTolerance tolerance() const;
+    Outcome          solve(ContactReport &report);
+    bool             misses_contacts(const std::array<double, 2> &speeds);
+    void             find_weights();
+  };
+} // namespace alluvium::grains

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <alluvium/grains/contact_neighbours.h>
+#include <alluvium/grains/contact_share.h>
+
+#include <memory>
+
+namespace alluvium::grains
+{
+  /**
+   * What this rank works on in a contact step: all grains and pairs, or its share of them. Keeps the pairs from step to
+   * step.
+   */
+  class ContactWork
+  {
+  public:
+    ContactGeometry           geometry;
+    ContactNeighbours         neighbours;
+    std::vector<std::uint8_t> all_touched; // of all grains: had a contact impulse in the last step
+
+    /** Collective. */
+    void           set_communicator(MPI_Comm communicator);
+    unsigned int   n_ranks() const { return share ? share->n_ranks() : 1; }
+    ContactTraffic traffic() const { return share ? share->traffic() : ContactTraffic(); }
+
+    /** Start a step of @p all grains, the same on all ranks; with @p sharing, each rank does a part. Collective. */
+    void begin(GrainArrays &all, const GrainLoads &all_loads, bool sharing);
+
+    /** End it: all ranks know of all grains again. Collective. */
+    void end();
+
+    GrainArrays               &grains() { return shared ? share->grains : *all; } // own, then ghosts
+    const GrainLoads          &loads() const { return shared ? share->loads : *all_loads; }
+    std::vector<std::uint8_t> &touched() { return shared ? share->touched : all_touched; }
+    std::size_t                n_owned() const { return shared ? share->n_owned() : all->n(); }
+    std::size_t                n_all() const { return all->n(); }
+    bool                       is_shared() const { return shared; }
+    ContactCommunicator       *communicator() const { return shared ? &share->exchange() : nullptr; }
+
+    /** Grains have moved. */
+    void update_ghosts();
+
+    /** Whether the pairs are those of the present grains on all ranks. Collective. */
+    bool known();
+
+    /** See ContactNeighbours. Collective. */
+    double slack();
+
+    /**
+     * Find all pairs with gaps below @p skin [m]. If ranks share the work, this also decides anew who owns what:
+     * grains() and loads() are others then. Collective.
+     */
+    void search(double skin);
+
+    /** The same in the midst of a solve: the velocities @p discs go along with the grains. */
+    void search(double skin, std::vector<Disc> &discs);
+
+    /** Whether the pairs are still those of @p grains, all of them. */
+    bool fits(const GrainArrays &grains) const
+    {
+      return shared ? share->fits(grains) && neighbours.known(share->grains) : neighbours.known(grains);
+    }
+
+    ContactArchive archive() const { return shared ? share->collect(neighbours.archive()) : neighbours.archive(); }
+
+  private:
+    std::unique_ptr<ContactShare> share; // none on one rank
+
+    GrainArrays      *all       = nullptr;
+    const GrainLoads *all_loads = nullptr;
+    bool              shared    = false;
+
+    void set_shared(bool now);
+  };
+} // namespace alluvium::grains

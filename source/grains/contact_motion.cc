@@ -1,0 +1,99 @@
+#include <alluvium/grains/contact_motion.h>
+#include <alluvium/grains/contact_reductions.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace alluvium::grains
+{
+  unsigned int ContactMotion::move(const ContactProblem   &problem,
+                                   const ContactActiveSet &active,
+                                   const ContactBodies    &bodies,
+                                   const ContactBonds     &bonds,
+                                   const double            h,
+                                   const bool              rotation,
+                                   ContactWork            &work)
+  {
+    for (auto *sum : {&px, &py, &ps})
+      sum->assign(bodies.n_discs() + ContactBodies::n_dummies, 0.);
+    std::vector<std::uint8_t> &touches    = work.touched();
+    unsigned int               n_contacts = 0;
+    from_contacts.clear();
+    for (std::size_t k = 0; k < problem.contacts.size(); ++k)
+      {
+        const Contact &c = problem.contacts[k];
+        if (c.rn == 0. && c.rt == 0.)
+          continue;
+        n_contacts += problem.counts(c);
+        const double ix = c.rn * c.nx - c.rt * c.ny, iy = c.rn * c.ny + c.rt * c.nx;
+        px[c.i] -= ix;
+        py[c.i] -= iy;
+        ps[c.i] -= c.rt;
+        px[c.j] += ix;
+        py[c.j] += iy;
+        ps[c.j] -= c.rt;
+        if (!problem.rolling.empty())
+          {
+            ps[c.i] -= problem.rolling[k].lever_i * problem.rolling[k].impulse;
+            ps[c.j] += problem.rolling[k].lever_j * problem.rolling[k].impulse;
+          }
+        touches[c.i]            = 1;
+        const std::int64_t wall = active.wall_of(k);
+        if (wall >= 0)
+          from_contacts.push_back({static_cast<std::size_t>(wall), {{ix, iy}}});
+        else
+          touches[c.j] = 1;
+      }
+    add_wall_impulses(work.communicator());
+    GrainArrays &grains = work.grains();
+    for (std::size_t k = 0; k < work.n_owned(); ++k)
+      {
+        grains.vx[k] = bodies.free[k].x + bodies.free[k].inverse_mass * px[k];
+        grains.vy[k] = bodies.free[k].y + bodies.free[k].inverse_mass * py[k];
+        if (rotation)
+          grains.omega[k] += bodies.free[k].inverse_rotation * ps[k] / grains.radius[k];
+        grains.x[k] += h * grains.vx[k];
+        grains.y[k] += h * grains.vy[k];
+        grains.fcx[k] += px[k];
+        grains.fcy[k] += py[k];
+      }
+    wrap_into_box(grains, work.geometry.periodicity);
+    work.update_ghosts();
+    for (std::size_t k = 0; k < bonds.on_grain.size(); ++k)
+      {
+        grains.fcx[k] += bonds.on_grain[k][0];
+        grains.fcy[k] += bonds.on_grain[k][1];
+      }
+    for (std::size_t k = 0; k < bonds.on_wall.size(); ++k)
+      for (unsigned int d = 0; d < 2; ++d)
+        on_wall[k][d] += bonds.on_wall[k][d];
+    return n_contacts;
+  }
+
+  /** Sum what each wall got from contacts in a sub-step; as sum_over_ranks(), but all walls at once. */
+  void ContactMotion::add_wall_impulses(ContactCommunicator *const communicator)
+  {
+    if (on_wall.empty())
+      return;
+    const std::size_t                  n_all = count_over_ranks(communicator, from_contacts.size());
+    std::vector<std::array<double, 2>> sums(on_wall.size(), {{0., 0.}});
+    for (const WallImpulse &p : from_contacts)
+      for (unsigned int d = 0; d < 2; ++d)
+        sums[p.wall][d] = std::max(sums[p.wall][d], std::abs(p.impulse[d]));
+    if (communicator != nullptr)
+      communicator->max(sums[0].data(), 2 * sums.size());
+    std::vector<std::array<double, 2>> shifts(sums.size());
+    for (std::size_t w = 0; w < sums.size(); ++w)
+      for (unsigned int d = 0; d < 2; ++d)
+        shifts[w][d] = ReproducibleSum(n_all * sums[w][d]).unit_shift();
+    sums.assign(sums.size(), {{0., 0.}});
+    for (const WallImpulse &p : from_contacts)
+      for (unsigned int d = 0; d < 2; ++d)
+        sums[p.wall][d] += (p.impulse[d] + shifts[p.wall][d]) - shifts[p.wall][d];
+    if (communicator != nullptr)
+      communicator->sum(sums[0].data(), 2 * sums.size());
+    for (std::size_t w = 0; w < sums.size(); ++w)
+      for (unsigned int d = 0; d < 2; ++d)
+        on_wall[w][d] += sums[w][d];
+  }
+} // namespace alluvium::grains

@@ -1,0 +1,51 @@
+#include <alluvium/grains/contact_scales.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace alluvium::grains
+{
+  ContactScales make_scales(const GrainArrays &grains, const std::array<double, 2> gravity)
+  {
+    ContactScales scales;
+    const auto [r_min, r_max] = std::minmax_element(grains.radius.begin(), grains.radius.end());
+    scales.d_min              = 2. * *r_min;
+    scales.d_max              = 2. * *r_max;
+    scales.g                  = std::hypot(gravity[0], gravity[1]);
+    if (scales.g > 0.)
+      scales.down = {{gravity[0] / scales.g, gravity[1] / scales.g}};
+    double sum = 0.;
+    for (const double m : grains.mass)
+      sum += 1. / m;
+    scales.mean_mass = sum > 0. ? grains.n() / sum : 1.;
+    return scales;
+  }
+
+  unsigned int
+  count_substeps(const GrainArrays &grains, const GrainLoads &loads, const double dt, const double largest_move)
+  {
+    double speed = 0.;
+    for (std::size_t k = 0; k < grains.n(); ++k)
+      {
+        const double m  = grains.mass[k];
+        double       vx = grains.vx[k], vy = grains.vy[k];
+        speed = std::max(speed, vx * vx + vy * vy);
+        if (!std::isinf(m))
+          {
+            vx    = (m * vx + dt * (loads.fx[k] + grains.fcx[k])) / (m + dt * loads.drag[k]);
+            vy    = (m * vy + dt * (loads.fy[k] + grains.fcy[k])) / (m + dt * loads.drag[k]);
+            speed = std::max(speed, vx * vx + vy * vy);
+          }
+        if (!std::isfinite(vx * vx + vy * vy + grains.x[k] + grains.y[k]))
+          throw std::runtime_error("The position, the velocity or the load of grain " + std::to_string(grains.id[k]) +
+                                   " is not a finite number.");
+      }
+    const double n_substeps = std::ceil(dt * std::sqrt(speed) / largest_move);
+    if (n_substeps > 1e6)
+      throw std::runtime_error("A grain moves at " + std::to_string(std::sqrt(speed)) +
+                               " m/s: one step would need more than a million contact sub-steps.");
+    return std::max(1., n_substeps);
+  }
+} // namespace alluvium::grains

@@ -1,0 +1,226 @@
+#include <alluvium/grains/cold_start.h>
+#include <alluvium/grains/contact_plausibility.h>
+#include <alluvium/grains/contact_reductions.h>
+#include <alluvium/grains/contact_substep.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace alluvium::grains
+{
+  void ContactSubstep::begin(Step new_step)
+  {
+    step = std::move(new_step);
+    motion.reset(work.geometry.walls.segments().size());
+  }
+
+
+  void ContactSubstep::advance(const double h, const unsigned int level, ContactReport &report)
+  {
+    bodies.set(work.grains(), work.loads(), h, settings.rotation);
+    set_margins(h);
+    work.neighbours.rescale(h);
+    search_if_due();
+    const Cohesion *const cohesion = step.cohesion;
+    bonds.reset(cohesion ? work.n_all() : 0, cohesion ? work.geometry.walls.segments().size() : 0);
+    if (cohesion)
+      bonds.attract(work.grains(),
+                    work.geometry,
+                    *cohesion,
+                    h,
+                    std::max(margins.delta, 1e-9 * step.scales.d_min),
+                    work.neighbours.pairs,
+                    bodies);
+
+    Outcome      outcome = solve(report);
+    const auto   before  = sum_motion(bodies.free, work.n_owned(), work.n_all(), work.communicator());
+    const double extra   = margins.wall_speed + margins.push_out;
+    const bool   runaway = has_runaway_impulse(problem, before, extra),
+               gain      = step.materials.bounces && has_gained_energy(problem, work.n_all(), before, extra);
+    if ((!outcome.solution.converged || outcome.too_far || gain) && !runaway && level < settings.max_halvings)
+      {
+        ++report.n_halvings;
+        for (int half = 0; half < 2; ++half)
+          advance(0.5 * h, level + 1, report);
+        return;
+      }
+    if (runaway || gain)
+      {
+        if (runaway)
+          work.neighbours.drop_impulses();
+        margins.gentle = true;
+        slack          = work.slack();
+        outcome        = solve(report);
+      }
+    if (!outcome.solution.converged)
+      ++report.n_unconverged;
+
+    report.n_contacts = motion.move(problem, active, bodies, bonds, h, settings.rotation, work);
+    if (cohesion)
+      ContactBonds::update(work.grains(), work.geometry, *cohesion, work.neighbours.pairs);
+    work.geometry.walls.move(h);
+    work.neighbours.walls_moved(h * margins.wall_speed);
+    ++report.n_substeps;
+    report.residual     = std::max(report.residual, outcome.solution.residual);
+    report.violation    = std::max(report.violation, outcome.solution.violation);
+    report.max_velocity = outcome.speed;
+  }
+
+
+  /** Scales of the sub-step: what gravity does in it; without gravity, what moves. */
+  void ContactSubstep::set_margins(const double h)
+  {
+    ContactCommunicator *const communicator = work.communicator();
+    const ContactScales       &scales       = step.scales;
+    margins                                 = {};
+    margins.h                               = h;
+    margins.base_h                          = step.base_h;
+    margins.wall_speed                      = work.geometry.walls.largest_speed();
+    margins.start_speeds  = largest_over_ranks(communicator, largest_speeds(bodies.start, work.n_owned()));
+    margins.mean_speed    = root_mean_square_speed(bodies.start, work.n_owned(), work.n_all(), communicator);
+    double velocity_scale = scales.g * h;
+    if (!(velocity_scale > 0.))
+      velocity_scale = std::max({margins.start_speeds[0],
+                                 max_over_ranks(communicator, largest_speeds(bodies.free, work.n_owned())[0]),
+                                 margins.wall_speed});
+    if (!(velocity_scale > 0.))
+      velocity_scale = 1e-3 * scales.d_min / h;
+    problem.impulse_scale = scales.mean_mass * velocity_scale;
+
+    // Without gravity, overlaps must open also when all else has come to rest.
+    const double velocity_unit =
+      scales.g > 0. ? std::sqrt(scales.g * scales.d_min) : std::max(velocity_scale, 0.01 * scales.d_min / step.base_h);
+    margins.delta      = std::min(settings.dead_zone * step.base_h * velocity_unit, 1e-3 * scales.d_min);
+    margins.push_out   = settings.push_out * velocity_unit;
+    margins.correction = settings.correction;
+    margins.threshold  = settings.threshold_velocity;
+    // The faster the grains, the more likely a solution closes a gap. Fewer rounds then.
+    margins.nearness =
+      std::max({2. * margins.delta, 2e-3 * scales.d_min, std::min(h * margins.mean_speed, 0.1 * scales.d_min)});
+  }
+
+
+  void ContactSubstep::search_if_due()
+  {
+    const double h = margins.h;
+    const double reach =
+      h * (margins.start_speeds[0] + margins.start_speeds[1] + margins.wall_speed + 2. * step.scales.g * h);
+    const double nearness =
+      std::max(margins.nearness, step.cohesion ? step.cohesion->reach(0.5 * step.scales.d_max) : 0.);
+    slack = work.known() ? work.slack() : -1.;
+    if (slack >= nearness + reach)
+      return;
+    slack = std::max(settings.skin * step.scales.d_max + nearness - margins.nearness, 1.2 * reach + nearness);
+    work.search(slack);
+    if (work.is_shared()) // with other grains now
+      bodies.set(work.grains(), work.loads(), h, settings.rotation);
+  }
+
+
+  /** The contacts that are close or closing, and with @p keep those that were there before. */
+  void ContactSubstep::set_problem(const bool keep)
+  {
+    const GrainArrays &grains = work.grains();
+    problem.communicator      = work.communicator();
+    problem.n_owned_discs     = work.n_owned();
+    active.select(grains, bodies, work.geometry, step.materials, margins, keep, work.neighbours.pairs);
+    active.build(work.neighbours.n_colours, grains, bodies, work.geometry, step.materials, problem);
+    problem.discs   = bodies.free;
+    problem.n_discs = bodies.n_discs();
+    problem.height.resize(step.scales.g > 0. ? bodies.n_discs() : 0);
+    for (std::size_t k = 0; k < problem.height.size(); ++k)
+      problem.height[k] = -(grains.x[k] * step.scales.down[0] + grains.y[k] * step.scales.down[1]);
+  }
+
+
+  ContactTolerance ContactSubstep::tolerance() const
+  {
+    // A bed at rest, or a cold one, is not on the move, however many sweeps it takes.
+    const bool on_the_move = margins.mean_speed > settings.moving_speed * problem.impulse_scale / step.scales.mean_mass;
+    // A residual makes a bed creep, at a speed in proportion to it and to the sub-step.
+    const double g     = step.scales.g;
+    const double wider = g > 0. ? std::clamp(0.2 * std::sqrt(step.scales.d_min / g) / margins.h, 1., 10.) : 1.;
+    return {wider * settings.residual_tolerance,
+            wider * settings.violation_tolerance,
+            settings.loose,
+            on_the_move ? settings.patience : 10 * settings.patience,
+            false,
+            settings.max_sweeps};
+  }
+
+
+  /** Solve with the contacts that are close or closing; if the solution makes others close, add them and solve on. */
+  ContactSubstep::Outcome ContactSubstep::solve(ContactReport &report)
+  {
+    ContactTolerance tolerance = this->tolerance();
+    Outcome          outcome;
+    ContactSolution &solution = outcome.solution;
+    for (bool keep = false;; keep = true)
+      {
+        set_problem(keep);
+        if (!keep && settings.cold_start && step.scales.g > 0. && active.is_cold(margins.delta, work.n_all(), problem))
+          {
+            tolerance.at_rest = true; // also in later rounds
+            find_weights();
+            const GrainArrays &grains = work.grains();
+            solution                  = solve_cold(
+              problem, {grains.x, grains.y, grains.radius}, {step.scales.down, weight}, *step.solver, tolerance);
+          }
+        else
+          solution = step.solver->solve(problem, tolerance);
+        report.n_sweeps += solution.sweeps;
+        report.n_updates += static_cast<unsigned long long>(solution.sweeps) * problem.n_counted();
+        active.take_impulses(problem);
+        if (solution.converged && solution.residual > tolerance.residual)
+          ++report.n_loose;
+        const auto speeds = largest_over_ranks(work.communicator(), largest_speeds(problem.discs, work.n_owned()));
+        if (!std::isfinite(speeds[0]))
+          throw std::runtime_error("A grain velocity is not a finite number after the contact solve.");
+        outcome.speed   = speeds[0];
+        outcome.too_far = margins.h * speeds[0] > 2. * settings.max_move * step.scales.d_min;
+        if (!solution.converged || outcome.too_far || !misses_contacts(speeds))
+          return outcome;
+      }
+  }
+
+
+  /**
+   * Whether grains with the velocities of the solution, of which the two largest are @p speeds, overlap at the end of
+   * the sub-step that are in no contact; those take part the next time. Searches if they may be no known pair.
+   */
+  bool ContactSubstep::misses_contacts(const std::array<double, 2> &speeds)
+  {
+    const double reach  = margins.h * (speeds[0] + speeds[1] + margins.wall_speed);
+    const bool   search = reach > slack;
+    if (search)
+      {
+        slack = 1.2 * reach;
+        work.search(slack, problem.discs);
+        if (work.is_shared())
+          bodies.set(work.grains(), work.loads(), margins.h, settings.rotation);
+        active.restart_from_impulses(work.neighbours.pairs);
+      }
+    const bool found =
+      active.add_violated(work.grains(), bodies, work.geometry, problem.discs, margins.h, work.neighbours.pairs);
+    return search || any_over_ranks(work.communicator(), found);
+  }
+
+
+  void ContactSubstep::find_weights()
+  {
+    const GrainLoads            &loads = work.loads();
+    const std::array<double, 2> &down  = step.scales.down;
+    weight.resize(bodies.n_discs());
+    for (std::size_t k = 0; k < weight.size(); ++k)
+      weight[k] = margins.h * (loads.fx[k] * down[0] + loads.fy[k] * down[1]);
+  }
+
+
+  void ContactSubstep::finish(ContactReport &report) const
+  {
+    active.measure_overlaps(work.grains(), work.geometry, problem, report.mean_penetration, report.max_penetration);
+    report.n_contacts = count_over_ranks(work.communicator(), report.n_contacts);
+    report.n_updates  = count_over_ranks(work.communicator(), report.n_updates);
+  }
+} // namespace alluvium::grains
