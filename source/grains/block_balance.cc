@@ -144,6 +144,20 @@ namespace alluvium::grains
         }
   }
 
+  template <class Function>
+  void BlockBalance::for_each_neighbour(const Function &f) const
+  {
+    for (std::size_t row = 0; row < n_rows; ++row)
+      for (std::size_t column = 0; column < n_columns; ++column)
+        for (unsigned int s = 0; s < width * width; ++s)
+          {
+            const std::size_t node = row * n_columns + column;
+            const std::size_t r = row + s / width - reach, c = column + s % width - reach; // wrap around below zero
+            if (r < n_rows && c < n_columns)
+              f((node * width * width + s) * block_size, node, r * n_columns + c);
+          }
+  }
+
   void BlockBalance::assemble(const ContactProblem &problem)
   {
     matrix.assign(n_nodes() * width * width * block_size, 0.);
@@ -184,54 +198,31 @@ namespace alluvium::grains
     if (problem.communicator != nullptr)
       problem.communicator->sum(matrix.data(), matrix.size());
 
-    // Weigh the rows, which are the test nodes.
-    for (std::size_t row = 0; row < n_rows; ++row)
-      for (std::size_t column = 0; column < n_columns; ++column)
-        for (unsigned int s = 0; s < width * width; ++s)
-          {
-            const std::size_t r = row + s / width - reach, c = column + s % width - reach; // wrap around below zero
-            double *const     entry = matrix.data() + ((row * n_columns + column) * width * width + s) * block_size;
-            const double      w     = r < n_rows && c < n_columns ? weight[r * n_columns + c] : 0.;
-            for (unsigned int m = 0; m < block_size; ++m)
-              entry[m] *= w;
-          }
+    // Weigh the rows, which are the test nodes. Blocks beyond the grid are never asked for.
+    for_each_neighbour([&](const std::size_t block, std::size_t, const std::size_t test) {
+      for (unsigned int m = 0; m < block_size; ++m)
+        matrix[block + m] *= weight[test];
+    });
   }
 
   void BlockBalance::multiply(const std::vector<double> &c, std::vector<double> &result) const
   {
     std::fill(result.begin(), result.end(), 0.);
-    for (std::size_t row = 0; row < n_rows; ++row)
-      for (std::size_t column = 0; column < n_columns; ++column)
-        for (unsigned int s = 0; s < width * width; ++s)
-          {
-            const std::size_t r = row + s / width - reach, q = column + s % width - reach;
-            if (r >= n_rows || q >= n_columns)
-              continue;
-            const std::size_t   from = row * n_columns + column, to = r * n_columns + q;
-            const double *const entry = matrix.data() + (from * width * width + s) * block_size;
-            for (unsigned int m = 0; m < n_families; ++m)
-              {
-                result[2 * to] += entry[2 * m] * c[n_families * from + m];
-                result[2 * to + 1] += entry[2 * m + 1] * c[n_families * from + m];
-              }
-          }
+    for_each_neighbour([&](const std::size_t block, const std::size_t node, const std::size_t test) {
+      for (unsigned int m = 0; m < n_families; ++m)
+        for (unsigned int d = 0; d < 2; ++d)
+          result[2 * test + d] += matrix[block + 2 * m + d] * c[n_families * node + m];
+    });
   }
 
-  void BlockBalance::multiply_transposed(const std::vector<double> &test, std::vector<double> &result) const
+  void BlockBalance::multiply_transposed(const std::vector<double> &test_values, std::vector<double> &result) const
   {
     std::fill(result.begin(), result.end(), 0.);
-    for (std::size_t row = 0; row < n_rows; ++row)
-      for (std::size_t column = 0; column < n_columns; ++column)
-        for (unsigned int s = 0; s < width * width; ++s)
-          {
-            const std::size_t r = row + s / width - reach, q = column + s % width - reach;
-            if (r >= n_rows || q >= n_columns)
-              continue;
-            const std::size_t   from = row * n_columns + column, to = r * n_columns + q;
-            const double *const entry = matrix.data() + (from * width * width + s) * block_size;
-            for (unsigned int m = 0; m < n_families; ++m)
-              result[n_families * from + m] += entry[2 * m] * test[2 * to] + entry[2 * m + 1] * test[2 * to + 1];
-          }
+    for_each_neighbour([&](const std::size_t block, const std::size_t node, const std::size_t test) {
+      for (unsigned int m = 0; m < n_families; ++m)
+        result[n_families * node + m] +=
+          matrix[block + 2 * m] * test_values[2 * test] + matrix[block + 2 * m + 1] * test_values[2 * test + 1];
+    });
   }
 
   std::vector<double> BlockBalance::solve() const
@@ -239,13 +230,13 @@ namespace alluvium::grains
     // Conjugate gradients for the least squares, scaled by the diagonal of the normal matrix
     const std::size_t   n = n_families * n_nodes();
     std::vector<double> diagonal(n, 0.);
-    for (std::size_t k = 0; k < n_nodes(); ++k)
-      for (unsigned int s = 0; s < width * width; ++s)
-        for (unsigned int m = 0; m < n_families; ++m)
-          {
-            const double *const entry = matrix.data() + (k * width * width + s) * block_size + 2 * m;
-            diagonal[n_families * k + m] += entry[0] * entry[0] + entry[1] * entry[1];
-          }
+    for_each_neighbour([&](const std::size_t block, const std::size_t node, std::size_t) {
+      for (unsigned int m = 0; m < n_families; ++m)
+        {
+          const double *const entry = matrix.data() + block + 2 * m;
+          diagonal[n_families * node + m] += entry[0] * entry[0] + entry[1] * entry[1];
+        }
+    });
     std::vector<double> c(n, 0.), gradient(n), direction(n, 0.), rest(2 * n_nodes()), image(2 * n_nodes());
     for (std::size_t k = 0; k < rest.size(); ++k)
       rest[k] = -momentum[k];

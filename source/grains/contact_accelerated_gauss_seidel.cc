@@ -54,7 +54,7 @@ namespace alluvium::grains
 
       double t = 1., beta = 0., cap = largest_momentum;
       // Where things move, momentum that overshoots finds nobody to stop it; a bed at rest needs patience.
-      const double growth       = tolerance.at_rest ? 1.5 : 1.;
+      const double growth = tolerance.at_rest ? 1.5 : 1.;
       if (tolerance.at_rest)
         cap = std::min(cap, 1. - 1. / std::sqrt(1. + measure.n_contacts())); // 1 - 1 / number of layers, roughly
       double       stall_change = std::numeric_limits<double>::max();
@@ -73,15 +73,8 @@ namespace alluvium::grains
             }
 
           const double change = measure.relative_change(sums);
-          if (change <= tolerance.allowance(solution.sweeps) * tolerance.residual)
-            {
-              measure_residual(measure, solution);
-              if (solution.meets(tolerance))
-                {
-                  solution.converged = true;
-                  return solution;
-                }
-            }
+          if (is_solved(measure, sums, tolerance, solution))
+            return solution;
 
           if (!tolerance.at_rest && solution.sweeps >= stall_start + stall_sweeps)
             {

@@ -41,16 +41,8 @@ namespace alluvium::grains
         {
           const SweepSums sums = order == "colour" ? sweep(problem, measure) : sweep_sorted(problem, measure);
           ++solution.sweeps;
-          // The changes of a sweep only hint at the residual after it, so measure before believing.
-          if (measure.relative_change(sums) <= tolerance.allowance(solution.sweeps) * tolerance.residual)
-            {
-              measure_residual(measure, solution);
-              if (solution.meets(tolerance))
-                {
-                  solution.converged = true;
-                  return solution;
-                }
-            }
+          if (is_solved(measure, sums, tolerance, solution))
+            return solution;
         }
       measure_residual(measure, solution);
       return solution;

@@ -42,17 +42,9 @@ namespace alluvium::grains
             extrapolate(problem, beta);
           const SweepSums sums = sweep_all(problem, measure, beta);
           ++solution.sweeps;
-          // A sweep changes impulses by a share only of what the residual is.
-          const double change = share * measure.relative_change(sums);
-          if (change <= tolerance.allowance(solution.sweeps) * tolerance.residual)
-            {
-              measure_residual(measure, solution);
-              if (solution.meets(tolerance))
-                {
-                  solution.converged = true;
-                  return solution;
-                }
-            }
+          const double change = measure.relative_change(sums);
+          if (is_solved(measure, sums, tolerance, solution, 1. / share))
+            return solution;
           if (iteration % 2 == 1)
             {
               const double now = measure.kinetic_energy() + sums.work;
@@ -70,7 +62,8 @@ namespace alluvium::grains
     }
 
   private:
-    static constexpr double share = 3.; // contacts of a disc that carries something, roughly
+    static constexpr double share =
+      3.; // contacts of a disc that carries something, roughly: a sweep moves impulses by one part only
 
     mutable std::vector<LastImpulse> last, change;
     mutable std::vector<double>      n_contacts; // of each disc

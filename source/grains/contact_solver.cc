@@ -76,4 +76,17 @@ namespace alluvium::grains
     solution.residual  = std::sqrt(sums.change.value() / n) / scale;
     solution.violation = std::sqrt(largest[0]) / scale;
   }
+
+  bool is_solved(const ContactMeasure   &measure,
+                 const SweepSums        &sums,
+                 const ContactTolerance &tolerance,
+                 ContactSolution        &solution,
+                 const double            stride)
+  {
+    if (!(measure.relative_change(sums) <= stride * tolerance.allowance(solution.sweeps) * tolerance.residual))
+      return false;
+    measure_residual(measure, solution);
+    solution.converged = solution.meets(tolerance);
+    return solution.converged;
+  }
 } // namespace alluvium::grains

@@ -47,16 +47,8 @@ namespace alluvium::grains
                 problem.communicator->after_colour(problem.discs, colour);
             }
           ++solution.sweeps;
-          if (measure.relative_change(measure.end(sums)) <=
-              relaxation * tolerance.allowance(solution.sweeps) * tolerance.residual)
-            {
-              measure_residual(measure, solution);
-              if (solution.meets(tolerance))
-                {
-                  solution.converged = true;
-                  return solution;
-                }
-            }
+          if (is_solved(measure, measure.end(sums), tolerance, solution, relaxation))
+            return solution;
         }
       measure_residual(measure, solution);
       return solution;

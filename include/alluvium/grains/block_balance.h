@@ -61,6 +61,11 @@ namespace alluvium::grains
       return (hats.row + corner / 2) * n_columns + hats.column + corner % 2;
     }
     Hats hats_at(double x, double y) const;
+
+    /** Call @p f(block of the matrix, node, test node) for all nodes and the test nodes in their stencils. */
+    template <class Function>
+    void for_each_neighbour(const Function &f) const;
+
     void assemble(const ContactProblem &problem);
     void add_contact(
       const Hats &hats, const Contact &contact, const Hats &test, const std::array<double, 4> &value, double shift);

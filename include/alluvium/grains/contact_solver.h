@@ -66,10 +66,23 @@ namespace alluvium::grains
   void refuse_ranks(const ContactProblem &problem, const std::string &solver);
 
   class ContactMeasure;
+  struct SweepSums;
 
   /**
    * The natural-map residual of the problem of @p measure as it stands: fills `residual` and `violation` of
    * @p solution. Collective.
    */
   void measure_residual(const ContactMeasure &measure, ContactSolution &solution);
+
+  /**
+   * Whether the problem is solved to @p tolerance, after a sweep that changed impulses by @p sums. The changes of a
+   * sweep only hint at the residual after it, so it is measured before they are believed, but only if they are small
+   * enough; a sweep of this solver moves an impulse by about @p stride times its distance from its law. Fills
+   * @p solution, but for its sweeps, which must be right before. Collective.
+   */
+  bool is_solved(const ContactMeasure   &measure,
+                 const SweepSums        &sums,
+                 const ContactTolerance &tolerance,
+                 ContactSolution        &solution,
+                 double                  stride = 1.);
 } // namespace alluvium::grains
