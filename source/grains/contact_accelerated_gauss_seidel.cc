@@ -47,9 +47,9 @@ namespace alluvium::grains
       ContactSolution solution;
       apply_impulses(problem);
       ContactMeasure measure(problem);
-      last.clear();
-      for (const Contact &c : problem.contacts)
-        last.push_back({c.rn, c.rt});
+      last.resize(problem.contacts.size());
+      for (std::size_t k = 0; k < last.size(); ++k)
+        last[k] = {problem.contacts[k].rn, problem.contacts[k].rt};
       remember(problem);
 
       double t = 1., beta = 0., cap = largest_momentum;

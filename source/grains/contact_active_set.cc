@@ -6,21 +6,38 @@
 
 namespace alluvium::grains
 {
+  namespace
+  {
+    /** Make room for one more; a vector that doubles would waste memory. */
+    template <class T>
+    void make_room(std::vector<T> &list)
+    {
+      if (list.size() == list.capacity())
+        list.reserve(list.size() + list.size() / 8 + 64);
+    }
+  } // namespace
+
   void ContactActiveSet::select(const GrainArrays      &grains,
                                 const ContactBodies    &bodies,
                                 const ContactGeometry  &geometry,
                                 const ContactMaterials &materials,
                                 const ContactMargins   &margins,
                                 const bool              keep,
-                                ContactCandidates      &candidates)
+                                const unsigned int      n_colours,
+                                ContactCandidates      &candidates,
+                                ContactProblem         &problem)
   {
     const double h = margins.h, delta = margins.delta, nearness = margins.nearness;
-    active.clear();
     if (!keep)
       {
         disc_takes_part.assign(candidates.discs.size(), 0);
         wall_takes_part.assign(candidates.walls.size(), 0);
       }
+    number.clear();
+    n_closed = n_warm = 0;
+    problem.contacts.clear();
+    problem.rolling.clear();
+    problem.colour_begin.assign(1, 0);
 
     // v_n + bias >= 0: gaps within delta count as closed, so that a bed at rest does not chatter; overlaps open at
     // bounded speed.
@@ -34,55 +51,104 @@ namespace alluvium::grains
         b = gap > 0. ? restitution * vn_start : std::min(b, restitution * vn_start);
       return b;
     };
+    const auto add = [&](const ContactPair &p, const std::size_t n, const double gap, const Contact &contact) {
+      make_room(number);
+      number.push_back(n);
+      make_room(problem.contacts);
+      problem.contacts.push_back(contact);
+      if (gap <= delta && p.i < problem.n_owned_discs)
+        {
+          ++n_closed;
+          n_warm += p.rn > 0.;
+        }
+    };
+    const auto add_rolling =
+      [&](const ContactPair &p, const double lever_i, const double lever_j, const double wall, const double rolling) {
+        make_room(problem.rolling);
+        problem.rolling.push_back({p.rr, p.rr, lever_i, lever_j, wall, rolling});
+      };
 
-    const auto &start = bodies.start, &free = bodies.free;
-    for (std::size_t k = 0; k < candidates.discs.size(); ++k)
+    const auto &free        = bodies.free;
+    const auto  select_disc = [&](const std::size_t k) {
+      ContactPair &p  = candidates.discs[k];
+      const Disc  &vi = free[p.i], &vj = free[p.j];
+      double       dx = grains.x[p.j] - grains.x[p.i], dy = grains.y[p.j] - grains.y[p.i];
+      geometry.periodicity.shorten(dx, dy);
+      const double distance = std::sqrt(dx * dx + dy * dy), gap = distance - (grains.radius[p.i] + grains.radius[p.j]);
+      const double approach = (vj.x - vi.x) * dx + (vj.y - vi.y) * dy;
+      if (!(keep && disc_takes_part[k]) && gap >= nearness && (gap - nearness) * distance + h * approach >= 0.)
+        {
+          p.rn = p.rt = p.rr = 0.;
+          return;
+        }
+      if (vi.inverse_mass + vj.inverse_mass == 0.)
+        return;
+      disc_takes_part[k]          = 1;
+      const ContactMaterial &m    = materials.grains;
+      const double           over = distance > 0. ? 1. / distance : 0.;
+      const double           nx = distance > 0. ? dx * over : 1., ny = dy * over;
+      double                 vn_start = 0.;
+      if (m.restitution > 0.)
+        vn_start = (grains.vx[p.j] - grains.vx[p.i]) * nx + (grains.vy[p.j] - grains.vy[p.i]) * ny;
+      const double bias_n = bias(gap, vn_start, approach * over, m.restitution);
+      add(p, k, gap, {nx, ny, bias_n, 0., p.rn, p.rt, m.friction, p.i, p.j});
+      if (materials.rolls)
+        {
+          const double ri = grains.radius[p.i], rj = grains.radius[p.j], reduced = ri * rj / (ri + rj);
+          add_rolling(p, reduced / ri, reduced / rj, 0., m.rolling);
+        }
+    };
+    std::uint32_t dummy       = 0;
+    const auto    select_wall = [&](const std::size_t k) {
+      ContactPair &p = candidates.walls[k];
+      const Disc  &v = free[p.i];
+      ContactPoint point;
+      if (v.inverse_mass == 0. || !geometry.walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point))
+        {
+          wall_takes_part[k] = 0;
+          p.rn = p.rt = p.rr = 0.;
+          return;
+        }
+      const double vn_free = (point.vx - v.x) * point.nx + (point.vy - v.y) * point.ny;
+      if (!(keep && wall_takes_part[k]) && point.gap >= nearness && point.gap - nearness + h * vn_free >= 0.)
+        {
+          p.rn = p.rt = p.rr = 0.;
+          return;
+        }
+      wall_takes_part[k]              = 1;
+      const ContactMaterial &m        = materials.walls[p.j];
+      const double           vn_start = (point.vx - grains.vx[p.i]) * point.nx + (point.vy - grains.vy[p.i]) * point.ny;
+      const double           bias_n =
+        bias(point.gap, vn_start, vn_free, m.restitution) + (point.vx * point.nx + point.vy * point.ny);
+      const double bias_t = point.vy * point.nx - point.vx * point.ny;
+      const auto   j      = static_cast<std::uint32_t>(bodies.n_discs() + dummy++ % ContactBodies::n_dummies);
+      add(p,
+          candidates.discs.size() + k,
+          point.gap,
+          {point.nx, point.ny, bias_n, bias_t, p.rn, p.rt, m.friction, p.i, j});
+      if (materials.rolls)
+        add_rolling(p, 1., 0., grains.radius[p.i] * geometry.walls.segments()[p.j].spin, m.rolling);
+    };
+
+    if (problem.contacts.capacity() == 0)
       {
-        ContactPair &p  = candidates.discs[k];
-        const Disc  &vi = free[p.i], &vj = free[p.j];
-        double       dx = grains.x[p.j] - grains.x[p.i], dy = grains.y[p.j] - grains.y[p.i];
-        geometry.periodicity.shorten(dx, dy);
-        const double distance = std::sqrt(dx * dx + dy * dy),
-                     gap      = distance - (grains.radius[p.i] + grains.radius[p.j]);
-        const double approach = (vj.x - vi.x) * dx + (vj.y - vi.y) * dy;
-        if (!(keep && disc_takes_part[k]) && gap >= nearness && (gap - nearness) * distance + h * approach >= 0.)
-          {
-            p.rn = p.rt = p.rr = 0.;
-            continue;
-          }
-        if (bodies.free[p.i].inverse_mass + bodies.free[p.j].inverse_mass == 0.)
-          continue;
-        disc_takes_part[k] = 1;
-        const double over  = distance > 0. ? 1. / distance : 0.;
-        const double nx = distance > 0. ? dx * over : 1., ny = dy * over;
-        double       vn_start = 0.;
-        if (materials.grains.restitution > 0.)
-          vn_start = (start[p.j].x - start[p.i].x) * nx + (start[p.j].y - start[p.i].y) * ny;
-        active.push_back(
-          {&p, {nx, ny, gap}, bias(gap, vn_start, approach * over, materials.grains.restitution), false});
+        problem.contacts.reserve(2 * problem.n_owned_discs); // about what a settled bed has
+        number.reserve(2 * problem.n_owned_discs);
       }
-    for (std::size_t k = 0; k < candidates.walls.size(); ++k)
+    std::size_t disc = 0, wall = 0;
+    for (unsigned int colour = 0; colour < n_colours; ++colour)
       {
-        ContactPair &p = candidates.walls[k];
-        const Disc  &v = free[p.i];
-        ContactPoint point;
-        if (bodies.free[p.i].inverse_mass == 0. ||
-            !geometry.walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point))
-          {
-            wall_takes_part[k] = 0;
-            p.rn = p.rt = p.rr = 0.;
-            continue;
-          }
-        const double vn_free = (point.vx - v.x) * point.nx + (point.vy - v.y) * point.ny;
-        if (!(keep && wall_takes_part[k]) && point.gap >= nearness && point.gap - nearness + h * vn_free >= 0.)
-          {
-            p.rn = p.rt = p.rr = 0.;
-            continue;
-          }
-        wall_takes_part[k]    = 1;
-        const double vn_start = (point.vx - start[p.i].x) * point.nx + (point.vy - start[p.i].y) * point.ny;
-        active.push_back({&p, point, bias(point.gap, vn_start, vn_free, materials.walls[p.j].restitution), true});
+        for (; disc < candidates.discs.size() && candidates.discs[disc].colour == colour; ++disc)
+          select_disc(disc);
+        for (; wall < candidates.walls.size() && candidates.walls[wall].colour == colour; ++wall)
+          select_wall(wall);
+        problem.colour_begin.push_back(problem.contacts.size());
       }
+    // Colours at the end that are empty on all ranks are none.
+    std::size_t n_used = problem.n_colours();
+    while (n_used > 0 && problem.colour_begin[n_used - 1] == problem.contacts.size())
+      --n_used;
+    problem.colour_begin.resize(max_over_ranks(problem.communicator, n_used) + 1);
   }
 
   void ContactActiveSet::restart_from_impulses(const ContactCandidates &candidates)
@@ -135,113 +201,59 @@ namespace alluvium::grains
     return found;
   }
 
-  void ContactActiveSet::build(const unsigned int      n_colours,
-                               const GrainArrays      &grains,
-                               const ContactBodies    &bodies,
-                               const ContactGeometry  &geometry,
-                               const ContactMaterials &materials,
-                               ContactProblem         &problem)
+  double ContactActiveSet::take_impulses(const ContactProblem &problem, ContactCandidates &candidates) const
   {
-    std::vector<std::uint32_t> begin(n_colours + 1, 0);
-    for (const Active &a : active)
-      ++begin[a.pair->colour + 1];
-    for (unsigned int c = 0; c < n_colours; ++c)
-      begin[c + 1] += begin[c];
-    sorted.resize(active.size());
-    for (const Active &a : active)
-      sorted[begin[a.pair->colour]++] = a;
-
-    // begin[c] has become the end of colour c
-    problem.colour_begin.assign(1, 0);
-    problem.colour_begin.insert(problem.colour_begin.end(), begin.begin(), begin.end() - 1);
-    // Colours at the end that are empty on all ranks are none.
-    std::size_t n_used = problem.n_colours();
-    while (n_used > 0 && problem.colour_begin[n_used - 1] == active.size())
-      --n_used;
-    problem.colour_begin.resize(max_over_ranks(problem.communicator, n_used) + 1);
-
-    problem.contacts.resize(active.size());
-    problem.rolling.resize(materials.rolls ? active.size() : 0);
-    unsigned int dummy = 0;
-    for (std::size_t k = 0; k < active.size(); ++k)
-      {
-        const Active &a = sorted[k];
-        Contact      &c = problem.contacts[k];
-        c.i             = a.pair->i;
-        c.j             = a.wall ? bodies.n_discs() + (dummy++ % ContactBodies::n_dummies) : a.pair->j;
-        c.nx            = a.point.nx;
-        c.ny            = a.point.ny;
-        c.bias_n        = a.bias;
-        c.bias_t        = 0.;
-        c.rn            = a.pair->rn;
-        c.rt            = a.pair->rt;
-        if (a.wall)
-          {
-            c.bias_n += a.point.vx * c.nx + a.point.vy * c.ny;
-            c.bias_t = a.point.vy * c.nx - a.point.vx * c.ny;
-          }
-        const ContactMaterial &material = a.wall ? materials.walls[a.pair->j] : materials.grains;
-        c.friction                      = material.friction;
-        if (materials.rolls)
-          {
-            const double ri = grains.radius[c.i], rj = a.wall ? 0. : grains.radius[c.j];
-            const double reduced = a.wall ? ri : ri * rj / (ri + rj);
-            problem.rolling[k]   = {a.pair->rr,
-                                    a.pair->rr,
-                                    reduced / ri,
-                                  a.wall ? 0. : reduced / rj,
-                                  a.wall ? reduced * geometry.walls.segments()[a.pair->j].spin : 0.,
-                                    material.rolling};
-          }
-      }
-  }
-
-  void ContactActiveSet::take_impulses(const ContactProblem &problem)
-  {
+    double            largest = 0.;
+    const std::size_t n_discs = candidates.discs.size();
     for (std::size_t k = 0; k < problem.contacts.size(); ++k)
       {
-        sorted[k].pair->rn = problem.contacts[k].rn;
-        sorted[k].pair->rt = problem.contacts[k].rt;
-        sorted[k].pair->rr = problem.rolling.empty() ? 0. : problem.rolling[k].impulse;
+        const Contact &c = problem.contacts[k];
+        ContactPair   &p = number[k] < n_discs ? candidates.discs[number[k]] : candidates.walls[number[k] - n_discs];
+        p.rn             = c.rn;
+        p.rt             = c.rt;
+        p.rr             = problem.rolling.empty() ? 0. : problem.rolling[k].impulse;
+        largest          = std::max(largest, c.rn);
       }
+    return largest;
   }
 
-  bool ContactActiveSet::is_cold(const double delta, const std::size_t n_discs, const ContactProblem &problem) const
+  bool ContactActiveSet::is_cold(const std::size_t n_discs, const ContactProblem &problem) const
   {
-    std::size_t closed = 0, warm = 0;
-    for (const Active &a : active)
-      if (a.point.gap <= delta && a.pair->i < problem.n_owned_discs)
-        {
-          ++closed;
-          warm += a.pair->rn > 0.;
-        }
-    closed = count_over_ranks(problem.communicator, closed);
-    warm   = count_over_ranks(problem.communicator, warm);
+    const std::size_t closed = count_over_ranks(problem.communicator, n_closed),
+                      warm   = count_over_ranks(problem.communicator, n_warm);
     // Of a bed at rest with known impulses, a third of the closed contacts carry none. And a small one needs no help.
     return n_discs >= 1000 && 2 * warm < closed && 2 * closed > n_discs;
   }
 
-  void ContactActiveSet::measure_overlaps(const GrainArrays     &grains,
-                                          const ContactGeometry &geometry,
-                                          const ContactProblem  &problem,
-                                          double                &mean,
-                                          double                &largest) const
+  void ContactActiveSet::measure_overlaps(const GrainArrays       &grains,
+                                          const ContactGeometry   &geometry,
+                                          const ContactProblem    &problem,
+                                          const ContactCandidates &candidates,
+                                          double                  &mean,
+                                          double                  &largest)
   {
-    std::vector<double> overlaps;
+    overlaps.clear();
     largest = 0.;
-    for (std::size_t k = 0; k < sorted.size(); ++k)
+    for (std::size_t k = 0; k < problem.contacts.size(); ++k)
       {
-        const ContactPair &p   = *sorted[k].pair;
-        double             gap = 0.;
-        ContactPoint       point;
-        if (!problem.counts(problem.contacts[k]))
+        const Contact &c   = problem.contacts[k];
+        double         gap = 0.;
+        if (!problem.counts(c))
           continue;
-        if (!sorted[k].wall)
-          gap = touch(grains, geometry.periodicity, p.i, p.j).gap;
-        else if (geometry.walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point))
+        if (!is_wall(k, candidates))
+          {
+            double dx = grains.x[c.j] - grains.x[c.i], dy = grains.y[c.j] - grains.y[c.i];
+            geometry.periodicity.shorten(dx, dy);
+            const double reach = grains.radius[c.i] + grains.radius[c.j], square = dx * dx + dy * dy;
+            if (square < reach * reach * (1. + 1e-12)) // else there is no need for the root
+              gap = std::sqrt(square) - reach;
+          }
+        else if (ContactPoint point;
+                 geometry.walls.touch(pair(k, candidates).j, grains.x[c.i], grains.y[c.i], grains.radius[c.i], point))
           gap = point.gap;
         if (gap < 0.)
           {
+            make_room(overlaps);
             overlaps.push_back(-gap);
             largest = std::max(largest, -gap);
           }

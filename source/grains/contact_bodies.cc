@@ -1,59 +1,74 @@
 #include <alluvium/grains/contact_bodies.h>
 #include <alluvium/grains/contact_reductions.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace alluvium::grains
 {
+  namespace
+  {
+    /** The largest and the second largest of @p n values(k), which are not negative. */
+    template <class Values>
+    std::array<double, 2> two_largest(const std::size_t n, const Values &values)
+    {
+      double first = 0., second = 0.;
+      for (std::size_t k = 0; k < n; ++k)
+        {
+          const double value = values(k);
+          if (value > first)
+            {
+              second = first;
+              first  = value;
+            }
+          else if (value > second)
+            second = value;
+        }
+      return {{first, second}};
+    }
+  } // namespace
+
   void ContactBodies::set(const GrainArrays &grains, const GrainLoads &loads, const double h, const bool rotation)
   {
     const std::size_t n = grains.n();
-    start.resize(n);
-    free.assign(n + n_dummies, Disc());
+    free.resize(n + n_dummies);
+    std::fill(free.begin() + n, free.end(), Disc());
     for (std::size_t k = 0; k < n; ++k)
       {
-        start[k] = {grains.vx[k], grains.vy[k], grains.radius[k] * grains.omega[k]};
+        Disc &d = free[k];
+        d       = {grains.vx[k], grains.vy[k], grains.radius[k] * grains.omega[k]};
         if (std::isinf(grains.mass[k]))
-          {
-            free[k] = start[k];
-            continue;
-          }
+          continue;
         const double m = grains.mass[k], m_e = m + h * loads.drag[k];
-        const double inverse     = 1. / m_e;
-        free[k].x                = (m * start[k].x + h * loads.fx[k]) * inverse;
-        free[k].y                = (m * start[k].y + h * loads.fy[k]) * inverse;
-        free[k].s                = start[k].s;
-        free[k].inverse_mass     = inverse;
-        free[k].inverse_rotation = rotation ? 1. / disc_inertia(m, 1.) : 0.;
+        const double inverse = 1. / m_e;
+        d.x                  = (m * d.x + h * loads.fx[k]) * inverse;
+        d.y                  = (m * d.y + h * loads.fy[k]) * inverse;
+        d.inverse_mass       = inverse;
+        d.inverse_rotation   = rotation ? 1. / disc_inertia(m, 1.) : 0.;
       }
   }
 
   std::array<double, 2> largest_speeds(const std::vector<Disc> &velocities, const std::size_t n)
   {
-    double first = 0., second = 0.;
-    for (std::size_t k = 0; k < n; ++k)
-      {
-        const double s = velocities[k].x * velocities[k].x + velocities[k].y * velocities[k].y;
-        if (s > first)
-          {
-            second = first;
-            first  = s;
-          }
-        else if (s > second)
-          second = s;
-      }
-    return {{std::sqrt(first), std::sqrt(second)}};
+    const auto squares = two_largest(
+      n, [&](const std::size_t k) { return velocities[k].x * velocities[k].x + velocities[k].y * velocities[k].y; });
+    return {{std::sqrt(squares[0]), std::sqrt(squares[1])}};
   }
 
-  double root_mean_square_speed(const std::vector<Disc>   &velocities,
-                                const std::size_t          n,
-                                const std::size_t          n_all,
-                                ContactCommunicator *const communicator)
+  GrainSpeeds measure_speeds(const GrainArrays         &grains,
+                             const std::size_t          n,
+                             const std::size_t          n_all,
+                             ContactCommunicator *const communicator)
   {
-    const auto sum = sum_over_ranks<1>(communicator, n, n_all, [&](const std::size_t k) {
-      const Disc &v = velocities[k];
-      return std::array<double, 1>{{v.x * v.x + v.y * v.y}};
-    });
-    return std::sqrt(sum[0] / n_all);
+    const auto square  = [&](const std::size_t k) { return grains.vx[k] * grains.vx[k] + grains.vy[k] * grains.vy[k]; };
+    const auto largest = largest_over_ranks(communicator, two_largest(n, square));
+    // As sum_over_ranks(), which would look for the largest once more
+    ReproducibleSum sum(n_all * largest[0]);
+    for (std::size_t k = 0; k < n; ++k)
+      sum.add(square(k));
+    double all = sum.value();
+    if (communicator != nullptr)
+      communicator->sum(&all, 1);
+    return {{{std::sqrt(largest[0]), std::sqrt(largest[1])}}, std::sqrt(all / n_all)};
   }
 } // namespace alluvium::grains

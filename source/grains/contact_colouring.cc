@@ -96,4 +96,17 @@ namespace alluvium::grains
           return n_colours;
       }
   }
+
+  void sort_by_colour(std::vector<ContactPair> &pairs, const unsigned int n_colours)
+  {
+    std::vector<std::size_t> end(n_colours + 1, 0);
+    for (const ContactPair &p : pairs)
+      ++end[p.colour + 1];
+    for (unsigned int c = 0; c < n_colours; ++c)
+      end[c + 1] += end[c];
+    std::vector<ContactPair> sorted(pairs.size());
+    for (const ContactPair &p : pairs)
+      sorted[end[p.colour]++] = p;
+    pairs.swap(sorted);
+  }
 } // namespace alluvium::grains

@@ -35,14 +35,6 @@ namespace alluvium::grains
         }
       result.push_back(f);
     };
-    if (!work.is_shared())
-      {
-        for (const ContactPair &p : work.neighbours.pairs.discs)
-          add(p, false);
-        for (const ContactPair &p : work.neighbours.pairs.walls)
-          add(p, true);
-        return result;
-      }
     const auto number = [&](const GrainId id) {
       return static_cast<std::uint32_t>(std::lower_bound(grains.id.begin(), grains.id.end(), id) - grains.id.begin());
     };

@@ -14,8 +14,8 @@ namespace alluvium::grains
                                    const bool              rotation,
                                    ContactWork            &work)
   {
-    for (auto *sum : {&px, &py, &ps})
-      sum->assign(bodies.n_discs() + ContactBodies::n_dummies, 0.);
+    on_grain.assign(bodies.n_discs() + ContactBodies::n_dummies, {});
+    const ContactCandidates   &pairs      = work.neighbours.pairs;
     std::vector<std::uint8_t> &touches    = work.touched();
     unsigned int               n_contacts = 0;
     from_contacts.clear();
@@ -26,21 +26,21 @@ namespace alluvium::grains
           continue;
         n_contacts += problem.counts(c);
         const double ix = c.rn * c.nx - c.rt * c.ny, iy = c.rn * c.ny + c.rt * c.nx;
-        px[c.i] -= ix;
-        py[c.i] -= iy;
-        ps[c.i] -= c.rt;
-        px[c.j] += ix;
-        py[c.j] += iy;
-        ps[c.j] -= c.rt;
+        Impulse     &i = on_grain[c.i], &j = on_grain[c.j];
+        i.x -= ix;
+        i.y -= iy;
+        i.spin -= c.rt;
+        j.x += ix;
+        j.y += iy;
+        j.spin -= c.rt;
         if (!problem.rolling.empty())
           {
-            ps[c.i] -= problem.rolling[k].lever_i * problem.rolling[k].impulse;
-            ps[c.j] += problem.rolling[k].lever_j * problem.rolling[k].impulse;
+            i.spin -= problem.rolling[k].lever_i * problem.rolling[k].impulse;
+            j.spin += problem.rolling[k].lever_j * problem.rolling[k].impulse;
           }
-        touches[c.i]            = 1;
-        const std::int64_t wall = active.wall_of(k);
-        if (wall >= 0)
-          from_contacts.push_back({static_cast<std::size_t>(wall), {{ix, iy}}});
+        touches[c.i] = 1;
+        if (active.is_wall(k, pairs))
+          from_contacts.push_back({active.pair(k, pairs).j, {{ix, iy}}});
         else
           touches[c.j] = 1;
       }
@@ -48,14 +48,15 @@ namespace alluvium::grains
     GrainArrays &grains = work.grains();
     for (std::size_t k = 0; k < work.n_owned(); ++k)
       {
-        grains.vx[k] = bodies.free[k].x + bodies.free[k].inverse_mass * px[k];
-        grains.vy[k] = bodies.free[k].y + bodies.free[k].inverse_mass * py[k];
+        const Impulse &p = on_grain[k];
+        grains.vx[k]     = bodies.free[k].x + bodies.free[k].inverse_mass * p.x;
+        grains.vy[k]     = bodies.free[k].y + bodies.free[k].inverse_mass * p.y;
         if (rotation)
-          grains.omega[k] += bodies.free[k].inverse_rotation * ps[k] / grains.radius[k];
+          grains.omega[k] += bodies.free[k].inverse_rotation * p.spin / grains.radius[k];
         grains.x[k] += h * grains.vx[k];
         grains.y[k] += h * grains.vy[k];
-        grains.fcx[k] += px[k];
-        grains.fcy[k] += py[k];
+        grains.fcx[k] += p.x;
+        grains.fcy[k] += p.y;
       }
     wrap_into_box(grains, work.geometry.periodicity);
     work.update_ghosts();

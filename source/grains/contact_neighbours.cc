@@ -28,7 +28,9 @@ namespace alluvium::grains
     searched    = true;
     carry(grains, pairs.discs, false);
     carry(grains, pairs.walls, true);
-    pending.entries.clear();
+    pending = {};
+    sort_by_colour(pairs.discs, n_colours);
+    sort_by_colour(pairs.walls, n_colours);
   }
 
   void ContactNeighbours::keep(ContactCandidates share, const GrainArrays &grains, const std::size_t n_owned)
@@ -130,12 +132,18 @@ namespace alluvium::grains
       }
     ContactArchive result;
     result.dt = warm_dt;
-    for (const ContactPair &p : pairs.discs)
-      if (p.i < n_owned && (p.rn != 0. || p.bonded))
-        result.entries.push_back({searched_id[p.i], searched_id[p.j], false, p.bonded, p.rn, p.rt, p.rr});
-    for (const ContactPair &p : pairs.walls)
-      if (p.rn != 0. || p.bonded)
-        result.entries.push_back({searched_id[p.i], ~p.j, true, p.bonded, p.rn, p.rt, p.rr});
+    std::vector<ContactPair> list;
+    for (const bool wall : {false, true})
+      {
+        list.clear();
+        for (const ContactPair &p : wall ? pairs.walls : pairs.discs)
+          if (p.i < n_owned && (p.rn != 0. || p.bonded))
+            list.push_back(p);
+        sort_pairs(list, n_owned);
+        for (const ContactPair &p : list)
+          result.entries.push_back(
+            {searched_id[p.i], wall ? ~p.j : searched_id[p.j], wall, p.bonded, p.rn, p.rt, p.rr});
+      }
     return result;
   }
 

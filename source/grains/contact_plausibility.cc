@@ -27,12 +27,9 @@ namespace alluvium::grains
     return {sums[0], sums[1], sums[2]};
   }
 
-  bool has_runaway_impulse(const ContactProblem &problem, const MotionSums &before, const double extra)
+  bool is_runaway(const double largest, const MotionSums &before, const double extra)
   {
-    double largest = 0.;
-    for (const Contact &c : problem.contacts)
-      largest = std::max(largest, c.rn);
-    return max_over_ranks(problem.communicator, largest) > 30. * (before.momentum + before.mass * extra);
+    return largest > 30. * (before.momentum + before.mass * extra);
   }
 
   bool has_gained_energy(const ContactProblem &problem,

@@ -18,7 +18,11 @@ namespace alluvium::grains
       scales.down = {{gravity[0] / scales.g, gravity[1] / scales.g}};
     double sum = 0.;
     for (const double m : grains.mass)
-      sum += 1. / m;
+      {
+        sum += 1. / m;
+        if (!std::isinf(m))
+          scales.mass += m;
+      }
     scales.mean_mass = sum > 0. ? grains.n() / sum : 1.;
     return scales;
   }

@@ -109,25 +109,6 @@ namespace alluvium::grains
       bool                               wrap_x, wrap_y;
       mutable std::vector<std::uint32_t> found;
     };
-
-    /** Sort by (i, j): a counting sort over i, then short runs by j. */
-    void sort_pairs(std::vector<ContactPair> &pairs, const std::size_t n)
-    {
-      std::vector<std::uint32_t> begin(n + 1, 0);
-      for (const ContactPair &p : pairs)
-        ++begin[p.i + 1];
-      for (std::size_t k = 0; k < n; ++k)
-        begin[k + 1] += begin[k];
-      std::vector<ContactPair>   sorted(pairs.size());
-      std::vector<std::uint32_t> end(begin.begin(), begin.end() - 1);
-      for (const ContactPair &p : pairs)
-        sorted[end[p.i]++] = p;
-      for (std::size_t k = 0; k < n; ++k)
-        std::sort(sorted.begin() + begin[k],
-                  sorted.begin() + begin[k + 1],
-                  [](const ContactPair &p, const ContactPair &q) { return p.j < q.j; });
-      pairs.swap(sorted);
-    }
   } // namespace
 
   void WallGeometry::set(std::vector<WallSegment> segments)
@@ -273,6 +254,25 @@ namespace alluvium::grains
     periodicity.shorten(dx, dy);
     const double distance = std::sqrt(dx * dx + dy * dy), gap = distance - (g.radius[i] + g.radius[j]);
     return distance > 0. ? ContactPoint{dx / distance, dy / distance, gap} : ContactPoint{1., 0., gap};
+  }
+
+  void sort_pairs(std::vector<ContactPair> &pairs, const std::size_t n)
+  {
+    // A counting sort over i, then short runs by j
+    std::vector<std::uint32_t> begin(n + 1, 0);
+    for (const ContactPair &p : pairs)
+      ++begin[p.i + 1];
+    for (std::size_t k = 0; k < n; ++k)
+      begin[k + 1] += begin[k];
+    std::vector<ContactPair>   sorted(pairs.size());
+    std::vector<std::uint32_t> end(begin.begin(), begin.end() - 1);
+    for (const ContactPair &p : pairs)
+      sorted[end[p.i]++] = p;
+    for (std::size_t k = 0; k < n; ++k)
+      std::sort(sorted.begin() + begin[k],
+                sorted.begin() + begin[k + 1],
+                [](const ContactPair &p, const ContactPair &q) { return p.j < q.j; });
+    pairs.swap(sorted);
   }
 
   ContactCandidates find_candidates(const GrainArrays &g, const ContactGeometry &geometry, const double skin)

@@ -13,9 +13,8 @@ namespace alluvium::grains
   /** The lengths and speeds that decide which pairs take part in a sub-step, and how overlaps open. */
   struct ContactMargins
   {
-    std::array<double, 2> start_speeds{};  // the two largest of all grains at its start [m/s]
-    double                mean_speed = 0.; // and the root mean square of all
-    double                wall_speed = 0.; // of the fastest wall
+    GrainSpeeds speeds;          // at the start of the sub-step
+    double      wall_speed = 0.; // of the fastest wall [m/s]
 
     double h          = 0.;    // length of the sub-step [s]
     double base_h     = 0.;    // and of an unhalved one
@@ -34,14 +33,20 @@ namespace alluvium::grains
   class ContactActiveSet
   {
   public:
-    /** Choose them. With @p keep, those that took part before stay, whatever they do. */
+    /**
+     * Choose them, with @p keep also those that took part before, whatever they do, and write them as the contacts of
+     * @p problem, warm impulses included. They come in the order of @p candidates, which is by their @p n_colours
+     * colours; in each, grains' before walls'. Collective over the problem's communicator.
+     */
     void select(const GrainArrays      &grains,
                 const ContactBodies    &bodies,
                 const ContactGeometry  &geometry,
                 const ContactMaterials &materials,
                 const ContactMargins   &margins,
                 bool                    keep,
-                ContactCandidates      &candidates);
+                unsigned int            n_colours,
+                ContactCandidates      &candidates,
+                ContactProblem         &problem);
 
     /** After a new search: the pairs with an impulse take part, and no others. */
     void restart_from_impulses(const ContactCandidates &candidates);
@@ -57,45 +62,38 @@ namespace alluvium::grains
                       double                   h,
                       const ContactCandidates &candidates);
 
-    /**
-     * Write the contacts of @p problem, warm impulses included, in the order of their pairs' @p n_colours colours.
-     * Collective over the problem's communicator.
-     */
-    void build(unsigned int            n_colours,
-               const GrainArrays      &grains,
-               const ContactBodies    &bodies,
-               const ContactGeometry  &geometry,
-               const ContactMaterials &materials,
-               ContactProblem         &problem);
-
-    /** Hand the impulses of the solved @p problem to the pairs. */
-    void take_impulses(const ContactProblem &problem);
+    /** Hand the impulses of the solved @p problem to the pairs. Returns the largest normal impulse of this rank. */
+    double take_impulses(const ContactProblem &problem, ContactCandidates &candidates) const;
 
     /**
-     * Whether this is a heap, not a few that met, of which most contacts start without an impulse. There are @p n_discs
-     * on all ranks. Collective.
+     * Whether this is a heap, not a few that met, of which most contacts started without an impulse. There are
+     * @p n_discs on all ranks. Collective.
      */
-    bool is_cold(double delta, std::size_t n_discs, const ContactProblem &problem) const;
+    bool is_cold(std::size_t n_discs, const ContactProblem &problem) const;
 
-    /** Wall segment of contact @p k of the problem, or -1 if it is between grains. */
-    std::int64_t wall_of(const std::size_t k) const { return sorted[k].wall ? std::int64_t(sorted[k].pair->j) : -1; }
+    /** The pair of contact @p k of the problem. */
+    const ContactPair &pair(const std::size_t k, const ContactCandidates &candidates) const
+    {
+      return is_wall(k, candidates) ? candidates.walls[number[k] - candidates.discs.size()]
+                                    : candidates.discs[number[k]];
+    }
+    bool is_wall(const std::size_t k, const ContactCandidates &candidates) const
+    {
+      return number[k] >= candidates.discs.size();
+    }
 
     /** Mean and largest overlap of the contacts of @p problem, with the grains where they are now [m]. Collective. */
-    void measure_overlaps(const GrainArrays     &grains,
-                          const ContactGeometry &geometry,
-                          const ContactProblem  &problem,
-                          double                &mean,
-                          double                &largest) const;
+    void measure_overlaps(const GrainArrays       &grains,
+                          const ContactGeometry   &geometry,
+                          const ContactProblem    &problem,
+                          const ContactCandidates &candidates,
+                          double                  &mean,
+                          double                  &largest);
 
   private:
-    struct Active
-    {
-      ContactPair *pair;
-      ContactPoint point;
-      double       bias;
-      bool         wall;
-    };
-    std::vector<Active>       active, sorted; // as selected, and by colour as in the problem
-    std::vector<std::uint8_t> disc_takes_part, wall_takes_part;
+    std::vector<std::uint32_t> number; // of each contact's pair; those with walls come after all others
+    std::vector<std::uint8_t>  disc_takes_part, wall_takes_part; // of the pairs
+    std::size_t                n_closed = 0, n_warm = 0;         // contacts that touch; those of them with an impulse
+    std::vector<double>        overlaps;
   };
 } // namespace alluvium::grains

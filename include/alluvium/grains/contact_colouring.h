@@ -11,4 +11,7 @@ namespace alluvium::grains
    * there are, but not on how the grains are numbered. Returns the number of colours.
    */
   unsigned int colour_contacts(const GrainArrays &grains, ContactCandidates &candidates);
+
+  /** Sort @p pairs by their @p n_colours colours; those of one colour stay in their order. */
+  void sort_by_colour(std::vector<ContactPair> &pairs, unsigned int n_colours);
 } // namespace alluvium::grains

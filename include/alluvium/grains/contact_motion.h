@@ -38,9 +38,15 @@ namespace alluvium::grains
       std::size_t           wall;
       std::array<double, 2> impulse;
     };
+
+    /** On a grain in a sub-step, over the radius what turns it [N s/m]. */
+    struct alignas(32) Impulse
+    {
+      double x = 0., y = 0., spin = 0., none = 0.;
+    };
     std::vector<std::array<double, 2>> on_wall;
     std::vector<WallImpulse>           from_contacts; // of a sub-step
-    std::vector<double>                px, py, ps;    // on the grains in a sub-step [N s/m]
+    std::vector<Impulse>               on_grain;
 
     void add_wall_impulses(ContactCommunicator *communicator);
   };

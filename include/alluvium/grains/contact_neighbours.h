@@ -15,7 +15,7 @@ namespace alluvium::grains
   class ContactNeighbours
   {
   public:
-    ContactCandidates pairs;
+    ContactCandidates pairs;         // by colour, and by grains (i, j) in each
     unsigned int      n_colours = 0; // of the pairs
 
     /** Search anew all pairs with gaps below @p skin [m]; known pairs keep their impulses. */
@@ -57,7 +57,7 @@ namespace alluvium::grains
           p.rn = p.rt = 0.;
     }
 
-    /** Of the pairs whose first grain this rank owns. */
+    /** Of the pairs whose first grain this rank owns, by grains (i, j). */
     ContactArchive archive() const;
     void           set_archive(ContactArchive archive);
 

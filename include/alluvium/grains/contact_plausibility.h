@@ -18,12 +18,12 @@ namespace alluvium::grains
   sum_motion(const std::vector<Disc> &discs, std::size_t n, std::size_t n_all, ContactCommunicator *communicator);
 
   /**
-   * Whether an impulse is far larger than what the motion @p before could ask for. Friction can lock a disc in a wedge
-   * that restitution or the opening of an overlap wants to push it out of: no finite impulses do that, and the solver
-   * piles them up until the tolerance, which is relative to them, is met by anything. @p extra [m/s] is the speed that
-   * walls and the opening of overlaps add.
+   * Whether the @p largest impulse is far larger than what the motion @p before could ask for. Friction can lock a disc
+   * in a wedge that restitution or the opening of an overlap wants to push it out of: no finite impulses do that, and
+   * the solver piles them up until the tolerance, which is relative to them, is met by anything. @p extra [m/s] is the
+   * speed that walls and the opening of overlaps add.
    */
-  bool has_runaway_impulse(const ContactProblem &problem, const MotionSums &before, double extra);
+  bool is_runaway(double largest, const MotionSums &before, double extra);
 
   /**
    * Whether impacts have made energy. Newton's restitution does where several meet in one sub-step: a disc that is hit

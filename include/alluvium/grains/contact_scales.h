@@ -11,6 +11,7 @@ namespace alluvium::grains
   {
     double                d_min = 0., d_max = 0.; // diameters [m]
     double                mean_mass = 0.; // harmonic: the light grains decide, and fixed ones do not count [kg/m]
+    double                mass      = 0.; // of all that move
     double                g         = 0.; // [m/s^2]
     std::array<double, 2> down{};         // unit vector of gravity; zero without
   };

@@ -41,7 +41,7 @@ namespace alluvium::grains
     void advance(ContactReport &report) { advance(step.base_h, 0, report); }
 
     /** Fill what @p report says of the end of the step. */
-    void finish(ContactReport &report) const;
+    void finish(ContactReport &report);
 
     /** What each wall segment got in the step up to now [N s/m]. */
     const std::vector<std::array<double, 2>> &wall_impulses() const { return motion.wall_impulses(); }
@@ -51,8 +51,9 @@ namespace alluvium::grains
     struct Outcome
     {
       ContactSolution solution;
-      double          speed   = 0.;    // of the fastest grain [m/s]
-      bool            too_far = false; // it moves farther than it may
+      double          largest_impulse = 0.;    // normal, on this rank [N s/m]
+      double          speed           = 0.;    // of the fastest grain [m/s]
+      bool            too_far         = false; // it moves farther than it may
     };
 
     const ContactSettings &settings;
