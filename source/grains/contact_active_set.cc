@@ -51,16 +51,20 @@ namespace alluvium::grains
         b = gap > 0. ? restitution * vn_start : std::min(b, restitution * vn_start);
       return b;
     };
-    const auto add = [&](const ContactPair &p, const std::size_t n, const double gap, const Contact &contact) {
+    const auto add = [&](const ContactPair &p, const std::size_t n, const double gap) -> Contact & {
       make_room(number);
       number.push_back(n);
-      make_room(problem.contacts);
-      problem.contacts.push_back(contact);
       if (gap <= delta && p.i < problem.n_owned_discs)
         {
           ++n_closed;
           n_warm += p.rn > 0.;
         }
+      make_room(problem.contacts);
+      Contact &contact = problem.contacts.emplace_back(); // to be written in place: a copy would wait for its stores
+      contact.rn       = p.rn;
+      contact.rt       = p.rt;
+      contact.i        = p.i;
+      return contact;
     };
     const auto add_rolling =
       [&](const ContactPair &p, const double lever_i, const double lever_j, const double wall, const double rolling) {
@@ -90,8 +94,12 @@ namespace alluvium::grains
       double                 vn_start = 0.;
       if (m.restitution > 0.)
         vn_start = (grains.vx[p.j] - grains.vx[p.i]) * nx + (grains.vy[p.j] - grains.vy[p.i]) * ny;
-      const double bias_n = bias(gap, vn_start, approach * over, m.restitution);
-      add(p, k, gap, {nx, ny, bias_n, 0., p.rn, p.rt, m.friction, p.i, p.j});
+      Contact &c = add(p, k, gap);
+      c.nx       = nx;
+      c.ny       = ny;
+      c.bias_n   = bias(gap, vn_start, approach * over, m.restitution);
+      c.friction = m.friction;
+      c.j        = p.j;
       if (materials.rolls)
         {
           const double ri = grains.radius[p.i], rj = grains.radius[p.j], reduced = ri * rj / (ri + rj);
@@ -118,14 +126,13 @@ namespace alluvium::grains
       wall_takes_part[k]              = 1;
       const ContactMaterial &m        = materials.walls[p.j];
       const double           vn_start = (point.vx - grains.vx[p.i]) * point.nx + (point.vy - grains.vy[p.i]) * point.ny;
-      const double           bias_n =
-        bias(point.gap, vn_start, vn_free, m.restitution) + (point.vx * point.nx + point.vy * point.ny);
-      const double bias_t = point.vy * point.nx - point.vx * point.ny;
-      const auto   j      = static_cast<std::uint32_t>(bodies.n_discs() + dummy++ % ContactBodies::n_dummies);
-      add(p,
-          candidates.discs.size() + k,
-          point.gap,
-          {point.nx, point.ny, bias_n, bias_t, p.rn, p.rt, m.friction, p.i, j});
+      Contact               &c        = add(p, candidates.discs.size() + k, point.gap);
+      c.nx                            = point.nx;
+      c.ny                            = point.ny;
+      c.bias_n   = bias(point.gap, vn_start, vn_free, m.restitution) + (point.vx * point.nx + point.vy * point.ny);
+      c.bias_t   = point.vy * point.nx - point.vx * point.ny;
+      c.friction = m.friction;
+      c.j        = bodies.n_discs() + dummy++ % ContactBodies::n_dummies;
       if (materials.rolls)
         add_rolling(p, 1., 0., grains.radius[p.i] * geometry.walls.segments()[p.j].spin, m.rolling);
     };
