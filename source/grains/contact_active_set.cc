@@ -41,12 +41,12 @@ namespace alluvium::grains
 
     // v_n + bias >= 0: gaps within delta count as closed, so that a bed at rest does not chatter; overlaps open at
     // bounded speed.
+    // Which it is no branch predictor can tell, so there is no branch.
     const auto bias = [&](const double gap, const double vn_start, const double vn_free, const double restitution) {
-      double b = 0.;
-      if (gap > delta)
-        b = (gap - delta) / h;
-      else if (gap < -delta && !margins.gentle)
-        b = std::max(margins.correction * (gap + delta) / margins.base_h, -margins.push_out);
+      const bool   open  = gap > delta;
+      const double speed = (open ? gap - delta : margins.correction * (gap + delta)) / (open ? h : margins.base_h);
+      double       b     = std::max(speed, -margins.push_out);
+      b                  = open || (gap < -delta && !margins.gentle) ? b : 0.;
       if (restitution > 0. && !margins.gentle && vn_start < -margins.threshold && gap + h * vn_free < delta)
         b = gap > 0. ? restitution * vn_start : std::min(b, restitution * vn_start);
       return b;
@@ -54,11 +54,9 @@ namespace alluvium::grains
     const auto add = [&](const ContactPair &p, const std::size_t n, const double gap) -> Contact & {
       make_room(number);
       number.push_back(n);
-      if (gap <= delta && p.i < problem.n_owned_discs)
-        {
-          ++n_closed;
-          n_warm += p.rn > 0.;
-        }
+      const unsigned int closed = (gap <= delta) & (p.i < problem.n_owned_discs);
+      n_closed += closed;
+      n_warm += closed & (p.rn > 0.);
       make_room(problem.contacts);
       Contact &contact = problem.contacts.emplace_back(); // to be written in place: a copy would wait for its stores
       contact.rn       = p.rn;
@@ -239,8 +237,9 @@ namespace alluvium::grains
                                           double                  &mean,
                                           double                  &largest)
   {
-    overlaps.clear();
-    largest = 0.;
+    overlaps.resize(std::max(overlaps.size(), problem.contacts.size()));
+    std::size_t n_overlaps = 0;
+    largest                = 0.;
     for (std::size_t k = 0; k < problem.contacts.size(); ++k)
       {
         const Contact &c   = problem.contacts[k];
@@ -251,23 +250,19 @@ namespace alluvium::grains
           {
             double dx = grains.x[c.j] - grains.x[c.i], dy = grains.y[c.j] - grains.y[c.i];
             geometry.periodicity.shorten(dx, dy);
-            const double reach = grains.radius[c.i] + grains.radius[c.j], square = dx * dx + dy * dy;
-            if (square < reach * reach * (1. + 1e-12)) // else there is no need for the root
-              gap = std::sqrt(square) - reach;
+            gap = std::sqrt(dx * dx + dy * dy) - (grains.radius[c.i] + grains.radius[c.j]);
           }
         else if (ContactPoint point;
                  geometry.walls.touch(pair(k, candidates).j, grains.x[c.i], grains.y[c.i], grains.radius[c.i], point))
           gap = point.gap;
-        if (gap < 0.)
-          {
-            make_room(overlaps);
-            overlaps.push_back(-gap);
-            largest = std::max(largest, -gap);
-          }
+        // Half of them overlap, nobody knows which: keep it, perhaps to be overwritten, rather than branch.
+        overlaps[n_overlaps] = -gap;
+        n_overlaps += gap < 0.;
+        largest = std::max(largest, -gap);
       }
     largest               = max_over_ranks(problem.communicator, largest);
-    const std::size_t n   = count_over_ranks(problem.communicator, overlaps.size());
-    const double      sum = sum_over_ranks<1>(problem.communicator, overlaps.size(), n, [&](const std::size_t k) {
+    const std::size_t n   = count_over_ranks(problem.communicator, n_overlaps);
+    const double      sum = sum_over_ranks<1>(problem.communicator, n_overlaps, n, [&](const std::size_t k) {
       return std::array<double, 1>{{overlaps[k]}};
     })[0];
     mean                  = n > 0 ? sum / n : 0.;

@@ -206,6 +206,9 @@ namespace alluvium::grains
   {
     const double reach  = margins.h * (speeds[0] + speeds[1] + margins.wall_speed);
     const bool   search = reach > slack;
+    // Those that take no part are at least this far apart.
+    if (reach < 0.999 * std::min(slack, margins.nearness))
+      return false;
     if (search)
       {
         slack = 1.2 * reach;
