@@ -34,23 +34,13 @@ namespace alluvium::grains
         wall_takes_part.assign(candidates.walls.size(), 0);
       }
     number.clear();
+    states.clear();
+    coefficients.clear();
     n_closed = n_warm = 0;
     problem.contacts.clear();
     problem.rolling.clear();
     problem.colour_begin.assign(1, 0);
 
-    // v_n + bias >= 0: gaps within delta count as closed, so that a bed at rest does not chatter; overlaps open at
-    // bounded speed.
-    // Which it is no branch predictor can tell, so there is no branch.
-    const auto bias = [&](const double gap, const double vn_start, const double vn_free, const double restitution) {
-      const bool   open  = gap > delta;
-      const double speed = (open ? gap - delta : margins.correction * (gap + delta)) / (open ? h : margins.base_h);
-      double       b     = std::max(speed, -margins.push_out);
-      b                  = open || (gap < -delta && !margins.gentle) ? b : 0.;
-      if (restitution > 0. && !margins.gentle && vn_start < -margins.threshold && gap + h * vn_free < delta)
-        b = gap > 0. ? restitution * vn_start : std::min(b, restitution * vn_start);
-      return b;
-    };
     const auto add = [&](const ContactPair &p, const std::size_t n, const double gap) -> Contact & {
       make_room(number);
       number.push_back(n);
@@ -69,6 +59,12 @@ namespace alluvium::grains
         make_room(problem.rolling);
         problem.rolling.push_back({p.rr, p.rr, lever_i, lever_j, wall, rolling});
       };
+
+    const auto add_state = [&](const ContactMaterial &material, const ContactState &state) {
+      states.push_back(state);
+      coefficients.push_back(material);
+    };
+    const auto spin = [&](const std::uint32_t k) { return grains.radius[k] * grains.omega[k]; };
 
     const auto &free        = bodies.free;
     const auto  select_disc = [&](const std::size_t k) {
@@ -89,15 +85,21 @@ namespace alluvium::grains
       const ContactMaterial &m    = materials.grains;
       const double           over = distance > 0. ? 1. / distance : 0.;
       const double           nx = distance > 0. ? dx * over : 1., ny = dy * over;
-      double                 vn_start = 0.;
-      if (m.restitution > 0.)
-        vn_start = (grains.vx[p.j] - grains.vx[p.i]) * nx + (grains.vy[p.j] - grains.vy[p.i]) * ny;
+      double                 start_vn = 0.;
+      if (m.restitution > 0. || materials.law)
+        start_vn = (grains.vx[p.j] - grains.vx[p.i]) * nx + (grains.vy[p.j] - grains.vy[p.i]) * ny;
       Contact &c = add(p, k, gap);
       c.nx       = nx;
       c.ny       = ny;
-      c.bias_n   = bias(gap, vn_start, approach * over, m.restitution);
       c.friction = m.friction;
       c.j        = p.j;
+      if (!materials.law)
+        c.bias_n = margins.bias(gap, start_vn, approach * over, m.restitution);
+      else
+        {
+          const double vt = (grains.vy[p.j] - grains.vy[p.i]) * nx - (grains.vx[p.j] - grains.vx[p.i]) * ny;
+          add_state(m, {gap, start_vn, approach * over, std::abs(vt - (spin(p.i) + spin(p.j)))});
+        }
       if (materials.rolls)
         {
           const double ri = grains.radius[p.i], rj = grains.radius[p.j], reduced = ri * rj / (ri + rj);
@@ -115,22 +117,27 @@ namespace alluvium::grains
           p.rn = p.rt = p.rr = 0.;
           return;
         }
-      const double vn_free = (point.vx - v.x) * point.nx + (point.vy - v.y) * point.ny;
-      if (!(keep && wall_takes_part[k]) && point.gap >= nearness && point.gap - nearness + h * vn_free >= 0.)
+      const double free_vn = (point.vx - v.x) * point.nx + (point.vy - v.y) * point.ny;
+      if (!(keep && wall_takes_part[k]) && point.gap >= nearness && point.gap - nearness + h * free_vn >= 0.)
         {
           p.rn = p.rt = p.rr = 0.;
           return;
         }
-      wall_takes_part[k]              = 1;
-      const ContactMaterial &m        = materials.walls[p.j];
-      const double           vn_start = (point.vx - grains.vx[p.i]) * point.nx + (point.vy - grains.vy[p.i]) * point.ny;
+      wall_takes_part[k]        = 1;
+      const ContactMaterial &m  = materials.walls[p.j];
+      const double           vx = point.vx - grains.vx[p.i], vy = point.vy - grains.vy[p.i];
+      const double           start_vn = vx * point.nx + vy * point.ny;
       Contact               &c        = add(p, candidates.discs.size() + k, point.gap);
       c.nx                            = point.nx;
       c.ny                            = point.ny;
-      c.bias_n   = bias(point.gap, vn_start, vn_free, m.restitution) + (point.vx * point.nx + point.vy * point.ny);
-      c.bias_t   = point.vy * point.nx - point.vx * point.ny;
-      c.friction = m.friction;
-      c.j        = bodies.n_discs() + dummy++ % ContactBodies::n_dummies;
+      c.bias_n                        = point.vx * point.nx + point.vy * point.ny;
+      c.bias_t                        = point.vy * point.nx - point.vx * point.ny;
+      c.friction                      = m.friction;
+      c.j                             = bodies.n_discs() + dummy++ % ContactBodies::n_dummies;
+      if (!materials.law)
+        c.bias_n += margins.bias(point.gap, start_vn, free_vn, m.restitution);
+      else
+        add_state(m, {point.gap, start_vn, free_vn, std::abs(vy * point.nx - vx * point.ny - spin(p.i))});
       if (materials.rolls)
         add_rolling(p, 1., 0., grains.radius[p.i] * geometry.walls.segments()[p.j].spin, m.rolling);
     };
@@ -149,11 +156,27 @@ namespace alluvium::grains
           select_wall(wall);
         problem.colour_begin.push_back(problem.contacts.size());
       }
+    if (materials.law)
+      ask(*materials.law, margins, problem);
     // Colours at the end that are empty on all ranks are none.
     std::size_t n_used = problem.n_colours();
     while (n_used > 0 && problem.colour_begin[n_used - 1] == problem.contacts.size())
       --n_used;
     problem.colour_begin.resize(max_over_ranks(problem.communicator, n_used) + 1);
+  }
+
+  /** Let the law change the coefficients; the contacts' biases are those of walls up to now. */
+  void ContactActiveSet::ask(const ContactLaw &law, const ContactMargins &margins, ContactProblem &problem)
+  {
+    law.set_coefficients(states, coefficients);
+    for (std::size_t k = 0; k < states.size(); ++k)
+      {
+        const ContactState &s        = states[k];
+        problem.contacts[k].friction = coefficients[k].friction;
+        problem.contacts[k].bias_n += margins.bias(s.gap, s.start_vn, s.free_vn, coefficients[k].restitution);
+        if (!problem.rolling.empty())
+          problem.rolling[k].coefficient = coefficients[k].rolling;
+      }
   }
 
   void ContactActiveSet::restart_from_impulses(const ContactCandidates &candidates)

@@ -101,7 +101,7 @@ namespace alluvium::grains
           j.inverse_mass *= n_contacts[contact.j];
           j.inverse_rotation *= n_contacts[contact.j];
           double rn, rt;
-          CoulombLaw::solve(values(contact), i, j, rn, rt);
+          FrictionCone::solve(values(contact), i, j, rn, rt);
           change[k]  = {rn - contact.rn, rt - contact.rt};
           contact.rn = rn;
           contact.rt = rt;

@@ -29,7 +29,7 @@ namespace alluvium::grains
                                       T                      &largest_size)
     {
       T rn, rt;
-      CoulombLaw::solve(c, i, j, rn, rt);
+      FrictionCone::solve(c, i, j, rn, rt);
       const T changed = weight * ((rn - c.rn) * (rn - c.rn) + (rt - c.rt) * (rt - c.rt)),
               square  = weight * (c.rn * c.rn + c.rt * c.rt);
       change += (changed + shifts.shift_change) - shifts.shift_change;

@@ -1,5 +1,6 @@
 #include <alluvium/grains/cohesion.h>
 #include <alluvium/grains/contact_force_list.h>
+#include <alluvium/grains/contact_law.h>
 #include <alluvium/grains/contact_stepper.h>
 #include <alluvium/grains/contact_substep.h>
 #include <alluvium/grains/rest.h>
@@ -23,6 +24,7 @@ namespace alluvium::grains
     std::string                 model = "non-smooth";
     SoftSpheres                 soft_spheres;
     PluginChoice<ContactSolver> choice;
+    PluginChoice<ContactLaw>    law_choice;
     PluginChoice<Cohesion>      cohesion_choice;
     ContactWork                 work;
     Rest                        rest;
@@ -32,6 +34,11 @@ namespace alluvium::grains
     const Cohesion *acting_cohesion() const
     {
       return !cohesion_choice.name().empty() && cohesion_choice.get().acts() ? &cohesion_choice.get() : nullptr;
+    }
+
+    const ContactLaw *acting_law() const
+    {
+      return !law_choice.name().empty() && !law_choice.get().is_constant() ? &law_choice.get() : nullptr;
     }
 
     /**
@@ -84,11 +91,13 @@ namespace alluvium::grains
 
     ContactMaterials      materials = make_materials(settings, walls.segments());
     const Cohesion *const cohesion  = acting_cohesion();
-    const ContactScales   scales    = make_scales(grains, gravity);
+    materials.law                   = acting_law();
+    const ContactScales scales      = make_scales(grains, gravity);
     if (model == "soft-sphere")
       {
-        check_user(!materials.rolls && !cohesion,
-                   "Contacts/Contact model: soft spheres know neither rolling friction nor cohesion.");
+        check_user(!materials.rolls && !materials.law && !cohesion,
+                   "Contacts/Contact model: soft spheres know neither rolling friction nor cohesion, and of contact "
+                   "laws only Coulomb's.");
         return soft_spheres.advance(grains,
                                     loads,
                                     dt,
@@ -146,6 +155,8 @@ namespace alluvium::grains
     implementation->soft_spheres.add_parameters(prm);
     implementation->choice.add_parameters(
       prm, "Contact solver", default_solver, "How the contact problem of a sub-step is solved.");
+    implementation->law_choice.add_parameters(
+      prm, "Contact law", "Coulomb", "What friction and restitution depend on.");
     implementation->cohesion_choice.add_parameters(
       prm, "Cohesion", "none", "What attracts grains, and grains and walls.");
   }

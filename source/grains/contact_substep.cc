@@ -33,16 +33,17 @@ namespace alluvium::grains
                     work.neighbours.pairs,
                     bodies);
 
-    Outcome outcome = solve(report);
-    bool    runaway = false, gain = false;
+    Outcome    outcome = solve(report);
+    bool       runaway = false, gain = false;
+    const bool bounces = step.materials.bounces || step.materials.law;
     // Most impulses are no larger than what the masses alone allow, which needs no sums over all grains.
     const double extra = margins.wall_speed + margins.push_out;
     if (const double largest = max_over_ranks(work.communicator(), outcome.largest_impulse);
-        step.materials.bounces || is_runaway(largest, {0.99 * step.scales.mass, 0., 0.}, extra))
+        bounces || is_runaway(largest, {0.99 * step.scales.mass, 0., 0.}, extra))
       {
         const auto before = sum_motion(bodies.free, work.n_owned(), work.n_all(), work.communicator());
         runaway           = is_runaway(largest, before, extra);
-        gain              = step.materials.bounces && has_gained_energy(problem, work.n_all(), before, extra);
+        gain              = bounces && has_gained_energy(problem, work.n_all(), before, extra);
       }
     if ((!outcome.solution.converged || outcome.too_far || gain) && !runaway && level < settings.max_halvings)
       {

@@ -177,31 +177,31 @@ namespace alluvium::grains
 
     using SweepColour = void(ContactProblem &, unsigned int, SweepOrder, ContactMeasure::Sums &, LastImpulse *, double);
 
-    void coulomb_colour(ContactProblem       &problem,
-                        const unsigned int    colour,
-                        const SweepOrder      order,
-                        ContactMeasure::Sums &sums,
-                        LastImpulse *const    last,
-                        const double          beta)
+    void cone_colour(ContactProblem       &problem,
+                     const unsigned int    colour,
+                     const SweepOrder      order,
+                     ContactMeasure::Sums &sums,
+                     LastImpulse *const    last,
+                     const double          beta)
     {
-      sweep_colour<false, CoulombLaw>(problem, colour, order, sums, last, beta);
+      sweep_colour<false, FrictionCone>(problem, colour, order, sums, last, beta);
     }
 
 #ifdef __x86_64__
-    __attribute__((target("avx2"))) void coulomb_colour_avx2(ContactProblem       &problem,
-                                                             const unsigned int    colour,
-                                                             const SweepOrder      order,
-                                                             ContactMeasure::Sums &sums,
-                                                             LastImpulse *const    last,
-                                                             const double          beta)
+    __attribute__((target("avx2"))) void cone_colour_avx2(ContactProblem       &problem,
+                                                          const unsigned int    colour,
+                                                          const SweepOrder      order,
+                                                          ContactMeasure::Sums &sums,
+                                                          LastImpulse *const    last,
+                                                          const double          beta)
     {
-      sweep_colour<true, CoulombLaw>(problem, colour, order, sums, last, beta);
+      sweep_colour<true, FrictionCone>(problem, colour, order, sums, last, beta);
     }
 
     // Packs pay only where the processor has registers for them; the bits are the same.
-    SweepColour *const best_coulomb_colour = __builtin_cpu_supports("avx2") ? coulomb_colour_avx2 : coulomb_colour;
+    SweepColour *const best_cone_colour = __builtin_cpu_supports("avx2") ? cone_colour_avx2 : cone_colour;
 #else
-    SweepColour *const best_coulomb_colour = coulomb_colour;
+    SweepColour *const best_cone_colour = cone_colour;
 #endif
 
     ALLUVIUM_INLINE void extrapolate_discs(Disc *const discs, const std::size_t n, const double beta)
@@ -230,7 +230,7 @@ namespace alluvium::grains
 
     Extrapolate *const best_extrapolate = __builtin_cpu_supports("avx2") ? extrapolate_avx2 : extrapolate_plain;
 #else
-    Extrapolate *const best_extrapolate    = extrapolate_plain;
+    Extrapolate *const best_extrapolate = extrapolate_plain;
 #endif
   } // namespace
 
@@ -260,7 +260,7 @@ namespace alluvium::grains
     for (unsigned int k = 0; k < n; ++k)
       {
         const unsigned int colour = order == SweepOrder::forward ? k : n - 1 - k;
-        best_coulomb_colour(problem, colour, order, sums, last, beta);
+        best_cone_colour(problem, colour, order, sums, last, beta);
         if (!problem.rolling.empty())
           last ? roll_colour<true>(problem, colour, sums, beta) : roll_colour<false>(problem, colour, sums, beta);
         if (problem.communicator != nullptr)

@@ -320,6 +320,20 @@ TEST(Ranks, MovingWallsHaveTheSameBits)
   twins.run(4e-4, 150);
 }
 
+// Friction and the motion of ghosts decide about it together.
+TEST(Ranks, LawsHaveTheSameBits)
+{
+  Twins twins;
+  twins.both([](Scene &s) {
+    s.set("set Contact law = static-kinetic\nset Restitution = 0.2\nset Rolling friction coefficient = 0.02\n"
+          "subsection Contact law: static-kinetic\nset Static friction ratio = 1.5\n"
+          "set Transition slip speed = 0.01\nend");
+    throw_in(s, 12, 8);
+    box(s, 22. * d);
+  });
+  twins.run(4e-4, 200);
+}
+
 // Enough discs at rest for a cold start
 TEST(Ranks, ColdStartHasTheSameBits)
 {

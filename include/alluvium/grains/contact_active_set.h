@@ -1,6 +1,8 @@
 #pragma once
 
 #include <alluvium/grains/contact_bodies.h>
+#include <alluvium/grains/contact_law.h>
+#include <alluvium/grains/contact_margins.h>
 #include <alluvium/grains/contact_material.h>
 #include <alluvium/grains/contact_neighbours.h>
 
@@ -10,22 +12,6 @@
 
 namespace alluvium::grains
 {
-  /** The lengths and speeds that decide which pairs take part in a sub-step, and how overlaps open. */
-  struct ContactMargins
-  {
-    GrainSpeeds speeds;          // at the start of the sub-step
-    double      wall_speed = 0.; // of the fastest wall [m/s]
-
-    double h          = 0.;    // length of the sub-step [s]
-    double base_h     = 0.;    // and of an unhalved one
-    double delta      = 0.;    // gaps and overlaps below this count as closed [m]
-    double nearness   = 0.;    // pairs this near take part, whether they approach or not [m]
-    double push_out   = 0.;    // overlaps open at most this fast [m/s], and
-    double correction = 0.;    // this part of them in one unhalved sub-step
-    double threshold  = 0.;    // impacts slower than this do not bounce [m/s]
-    bool   gentle     = false; // overlaps do not open at all, and nothing bounces
-  };
-
   /**
    * The pairs that take part in a sub-step: those that touch, are near, or would pass each other without contact. Turns
    * them into the contacts of a ContactProblem and takes their impulses back.
@@ -95,5 +81,11 @@ namespace alluvium::grains
     std::vector<std::uint8_t>  disc_takes_part, wall_takes_part; // of the pairs
     std::size_t                n_closed = 0, n_warm = 0;         // contacts that touch; those of them with an impulse
     std::vector<double>        overlaps;
+
+    // For a law that asks.
+    std::vector<ContactState>    states;
+    std::vector<ContactMaterial> coefficients;
+
+    void ask(const ContactLaw &law, const ContactMargins &margins, ContactProblem &problem);
   };
 } // namespace alluvium::grains

@@ -7,6 +7,8 @@
 
 namespace alluvium::grains
 {
+  class ContactLaw;
+
   /** What the laws need to know of a pair of materials [-]. */
   struct ContactMaterial
   {
@@ -22,6 +24,8 @@ namespace alluvium::grains
     std::vector<ContactMaterial> walls;
 
     bool bounces = false, rolls = false; // whether any of them has restitution, or rolling friction
+
+    const ContactLaw *law = nullptr; // that changes them from contact to contact; none
   };
 
   /**

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <alluvium/grains/contact_law.h>
+#include <alluvium/grains/contact_cone.h>
 #include <alluvium/grains/contact_problem.h>
 
 #include <cstring>

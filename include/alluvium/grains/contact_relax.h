@@ -1,6 +1,6 @@
 #pragma once
 
-#include <alluvium/grains/contact_law.h>
+#include <alluvium/grains/contact_cone.h>
 #include <alluvium/grains/contact_problem.h>
 
 namespace alluvium::grains
@@ -51,7 +51,7 @@ namespace alluvium::grains
     j.inverse_mass *= factor_j;
     j.inverse_rotation *= factor_j;
     double rn, rt;
-    CoulombLaw::solve(values(contact), i, j, rn, rt);
+    FrictionCone::solve(values(contact), i, j, rn, rt);
     const double dn = rn - contact.rn, dt = rt - contact.rt;
     push(problem, contact, dn, dt);
     contact.rn = rn;
