@@ -8,13 +8,6 @@ namespace alluvium::grains
 {
   namespace
   {
-    struct Entry
-    {
-      std::uint64_t hash;
-      ContactPair  *pair;
-      bool          wall;
-    };
-
     /** Mixes all bits (the finaliser of splitmix64); one to one, so that no two pairs have the same. */
     std::uint64_t hash(const std::uint32_t a, const std::uint32_t b)
     {
@@ -24,46 +17,49 @@ namespace alluvium::grains
       return z ^ (z >> 31);
     }
 
-    /** Sort by hash: into buckets by its leading bits, about one entry in each, then each by itself. */
-    void sort_by_hash(std::vector<Entry> &entries)
+    /** Numbers of @p n things by hash(number): into buckets by its leading bits, about one in each, then each by
+     * itself. */
+    template <class Hash>
+    std::vector<std::uint32_t> sorted_by_hash(const std::size_t n, const Hash &hash)
     {
       unsigned int bits = 1;
-      while ((std::size_t(1) << bits) < entries.size())
+      while ((std::size_t(1) << bits) < n)
         ++bits;
       const unsigned int         shift = 64 - bits;
-      std::vector<std::uint32_t> end((std::size_t(1) << bits) + 1, 0);
-      for (const Entry &e : entries)
-        ++end[(e.hash >> shift) + 1];
+      std::vector<std::uint32_t> end((std::size_t(1) << bits) + 1, 0), order(n);
+      for (std::size_t k = 0; k < n; ++k)
+        ++end[(hash(k) >> shift) + 1];
       for (std::size_t k = 1; k < end.size(); ++k)
         end[k] += end[k - 1];
-      std::vector<Entry> sorted(entries.size());
-      for (const Entry &e : entries)
-        sorted[end[e.hash >> shift]++] = e;
-      // Buckets are in place: an insertion sort only moves entries within them.
-      for (std::size_t k = 1; k < sorted.size(); ++k)
+      for (std::size_t k = 0; k < n; ++k)
+        order[end[hash(k) >> shift]++] = k;
+      // Buckets are in place: an insertion sort only moves numbers within them.
+      std::uint64_t before = 0;
+      for (std::size_t k = 0; k < n; ++k)
         {
-          const Entry e = sorted[k];
-          std::size_t m = k;
-          for (; m > 0 && sorted[m - 1].hash > e.hash; --m)
-            sorted[m] = sorted[m - 1];
-          sorted[m] = e;
+          const std::uint32_t number = order[k];
+          const std::uint64_t its    = hash(number);
+          std::size_t         m      = k;
+          if (its < before)
+            for (; m > 0 && hash(order[m - 1]) > its; --m)
+              order[m] = order[m - 1];
+          else
+            before = its;
+          order[m] = number;
         }
-      entries.swap(sorted);
+      return order;
     }
   } // namespace
 
   unsigned int colour_contacts(const GrainArrays &grains, ContactCandidates &candidates)
   {
-    std::vector<Entry> entries;
-    entries.reserve(candidates.discs.size() + candidates.walls.size());
-    for (ContactPair &p : candidates.discs)
-      {
-        const GrainId a = grains.id[p.i], b = grains.id[p.j];
-        entries.push_back({hash(std::min(a, b), std::max(a, b)), &p, false});
-      }
-    for (ContactPair &p : candidates.walls)
-      entries.push_back({hash(grains.id[p.i], ~p.j), &p, true});
-    sort_by_hash(entries);
+    const std::size_t n_discs = candidates.discs.size();
+    const auto        order   = sorted_by_hash(n_discs + candidates.walls.size(), [&](const std::size_t k) {
+      if (k >= n_discs)
+        return hash(grains.id[candidates.walls[k - n_discs].i], ~candidates.walls[k - n_discs].j);
+      const GrainId a = grains.id[candidates.discs[k].i], b = grains.id[candidates.discs[k].j];
+      return hash(std::min(a, b), std::max(a, b));
+    });
 
     // Bits of the colours in use at every grain; more words only where one grain has very many neighbours.
     for (std::size_t words = 1;; words *= 2)
@@ -71,10 +67,11 @@ namespace alluvium::grains
         std::vector<std::uint64_t> used(words * grains.n(), 0);
         unsigned int               n_colours = 0;
         bool                       enough    = true;
-        for (const Entry &e : entries)
+        for (const std::uint32_t k : order)
           {
-            std::uint64_t *const at_i = &used[words * e.pair->i], *const at_j =
-                                                                    e.wall ? at_i : &used[words * e.pair->j];
+            const bool           wall = k >= n_discs;
+            ContactPair         &pair = wall ? candidates.walls[k - n_discs] : candidates.discs[k];
+            std::uint64_t *const at_i = &used[words * pair.i], *const at_j = wall ? at_i : &used[words * pair.j];
             std::size_t word = 0;
             while (word < words && (at_i[word] | at_j[word]) == std::numeric_limits<std::uint64_t>::max())
               ++word;
@@ -84,13 +81,11 @@ namespace alluvium::grains
                 break;
               }
             const std::uint64_t mask = at_i[word] | at_j[word], free = ~mask & (mask + 1);
-            unsigned int        colour = 64 * word;
-            while (!((free >> (colour % 64)) & 1))
-              ++colour;
+            const unsigned int  colour = 64 * word + __builtin_ctzll(free);
             at_i[word] |= free;
             at_j[word] |= free;
-            e.pair->colour = colour;
-            n_colours      = std::max(n_colours, colour + 1);
+            pair.colour = colour;
+            n_colours   = std::max(n_colours, colour + 1);
           }
         if (enough)
           return n_colours;

@@ -1,5 +1,6 @@
 #include <alluvium/grains/contact_colouring.h>
 #include <alluvium/grains/contact_neighbours.h>
+#include <alluvium/grains/contact_pair_sort.h>
 #include <alluvium/grains/contact_reductions.h>
 
 #include <algorithm>
@@ -132,17 +133,29 @@ namespace alluvium::grains
       }
     ContactArchive result;
     result.dt = warm_dt;
-    std::vector<ContactPair> list;
+    struct Place
+    {
+      std::uint32_t i, j, pair;
+    };
+    std::vector<Place> places;
     for (const bool wall : {false, true})
       {
-        list.clear();
-        for (const ContactPair &p : wall ? pairs.walls : pairs.discs)
-          if (p.i < n_owned && (p.rn != 0. || p.bonded))
-            list.push_back(p);
-        sort_pairs(list, n_owned);
-        for (const ContactPair &p : list)
-          result.entries.push_back(
-            {searched_id[p.i], wall ? ~p.j : searched_id[p.j], wall, p.bonded, p.rn, p.rt, p.rr});
+        const std::vector<ContactPair> &list = wall ? pairs.walls : pairs.discs;
+        const auto        known = [&](const ContactPair &p) { return p.i < n_owned && (p.rn != 0. || p.bonded); };
+        const std::size_t n     = std::count_if(list.begin(), list.end(), known);
+        places.clear();
+        places.reserve(n);
+        for (std::uint32_t k = 0; k < list.size(); ++k)
+          if (known(list[k]))
+            places.push_back({list[k].i, list[k].j, k});
+        sort_pairs(places, n_owned);
+        result.entries.reserve(result.entries.size() + n);
+        for (const Place &place : places)
+          {
+            const ContactPair &p = list[place.pair];
+            result.entries.push_back(
+              {searched_id[p.i], wall ? ~p.j : searched_id[p.j], wall, p.bonded, p.rn, p.rt, p.rr});
+          }
       }
     return result;
   }

@@ -1,3 +1,4 @@
+#include <alluvium/grains/contact_pair_sort.h>
 #include <alluvium/grains/contact_search.h>
 #include <alluvium/utilities/user_error.h>
 
@@ -83,9 +84,8 @@ namespace alluvium::grains
       /** The neighbours that cell @p c is to be paired with, so that every two neighbours are paired once. */
       const std::vector<std::uint32_t> &partners(const std::uint32_t c) const
       {
-        const int column = c % nx, row = c / nx;
-        // With fewer than three cells in a period, a cell has the same neighbour on both sides.
-        const bool few = (wrap_x && nx < 3) || (wrap_y && ny < 3);
+        const int  column = c % nx, row = c / nx;
+        const bool few = this->few();
         found.clear();
         for (const auto &[x, y] : {std::array<int, 2>{{1, 0}}, {{-1, 1}}, {{0, 1}}, {{1, 1}}})
           for (const int sign : {1, -1})
@@ -104,6 +104,12 @@ namespace alluvium::grains
               }
         return found;
       }
+
+      /** Whether cells on opposite sides are neighbours. */
+      bool wraps() const { return wrap_x || wrap_y; }
+
+      /** With fewer than three cells in a period, a cell has the same neighbour on both sides. */
+      bool few() const { return (wrap_x && nx < 3) || (wrap_y && ny < 3); }
 
     private:
       bool                               wrap_x, wrap_y;
@@ -256,24 +262,79 @@ namespace alluvium::grains
     return distance > 0. ? ContactPoint{dx / distance, dy / distance, gap} : ContactPoint{1., 0., gap};
   }
 
-  void sort_pairs(std::vector<ContactPair> &pairs, const std::size_t n)
+  namespace
   {
-    // A counting sort over i, then short runs by j
-    std::vector<std::uint32_t> begin(n + 1, 0);
-    for (const ContactPair &p : pairs)
-      ++begin[p.i + 1];
-    for (std::size_t k = 0; k < n; ++k)
-      begin[k + 1] += begin[k];
-    std::vector<ContactPair>   sorted(pairs.size());
-    std::vector<std::uint32_t> end(begin.begin(), begin.end() - 1);
-    for (const ContactPair &p : pairs)
-      sorted[end[p.i]++] = p;
-    for (std::size_t k = 0; k < n; ++k)
-      std::sort(sorted.begin() + begin[k],
-                sorted.begin() + begin[k + 1],
-                [](const ContactPair &p, const ContactPair &q) { return p.j < q.j; });
-    pairs.swap(sorted);
-  }
+    /** All pairs of grains with gaps below @p skin, sorted. */
+    std::vector<ContactPair>
+    find_pairs(const GrainArrays &g, const Periodicity &periodicity, const CellGrid &grid, const double skin)
+    {
+      // In the order of the cells, so that what is tested together lies together
+      struct Body
+      {
+        double        x, y, radius;
+        std::uint32_t number;
+      };
+      std::vector<Body> bodies(g.n());
+      for (std::size_t k = 0; k < bodies.size(); ++k)
+        {
+          const std::uint32_t m = grid.member[k];
+          bodies[k]             = {g.x[m], g.y[m], g.radius[m], m};
+        }
+      struct Pair
+      {
+        std::uint32_t i, j;
+      };
+      std::vector<Pair> found;
+      found.reserve(3 * g.n());
+      const auto test = [&](const Body &p, const std::uint32_t begin, const std::uint32_t end) {
+        for (std::uint32_t k = begin; k < end; ++k)
+          {
+            const Body &q  = bodies[k];
+            double      dx = p.x - q.x, dy = p.y - q.y;
+            periodicity.shorten(dx, dy);
+            const double reach = p.radius + q.radius + skin;
+            if (dx * dx + dy * dy < reach * reach)
+              found.push_back(g.id[p.number] < g.id[q.number] ? Pair{p.number, q.number} : Pair{q.number, p.number});
+          }
+      };
+      const std::vector<std::uint32_t> &begin = grid.begin;
+      for (int row = 0; row < grid.ny; ++row)
+        for (int column = 0; column < grid.nx; ++column)
+          {
+            const std::uint32_t c    = static_cast<std::uint32_t>(row) * grid.nx + column;
+            const bool          edge = grid.wraps() && (column == 0 || column + 1 == grid.nx || row + 1 == grid.ny);
+            if (begin[c] == begin[c + 1])
+              continue;
+            if (edge || grid.few())
+              {
+                const std::vector<std::uint32_t> &others = grid.partners(c);
+                for (std::uint32_t a = begin[c]; a < begin[c + 1]; ++a)
+                  {
+                    test(bodies[a], a + 1, begin[c + 1]);
+                    for (const std::uint32_t other : others)
+                      test(bodies[a], begin[other], begin[other + 1]);
+                  }
+                continue;
+              }
+            // The rest of the cell and the one to the right; the three above, which lie one behind the other
+            const std::uint32_t right = column + 1 < grid.nx ? c + 1 : c;
+            const bool          above = row + 1 < grid.ny;
+            const std::uint32_t first = begin[above ? c + grid.nx - (column > 0 ? 1 : 0) : 0],
+                                last  = begin[above ? right + grid.nx + 1 : 0];
+            for (std::uint32_t a = begin[c]; a < begin[c + 1]; ++a)
+              {
+                test(bodies[a], a + 1, begin[right + 1]);
+                test(bodies[a], first, last);
+              }
+          }
+      sort_pairs(found, g.n());
+      std::vector<ContactPair> pairs;
+      pairs.reserve(found.size());
+      for (const Pair &p : found)
+        pairs.push_back({p.i, p.j});
+      return pairs;
+    }
+  } // namespace
 
   ContactCandidates find_candidates(const GrainArrays &g, const ContactGeometry &geometry, const double skin)
   {
@@ -292,29 +353,7 @@ namespace alluvium::grains
                  "Domain/Periodic directions: the domain must be wider than two of the largest grains (and twice the "
                  "distance at which contacts are looked for), or a grain would touch another one on both sides.");
     const CellGrid grid(g, periodicity, 2. * r_max + skin);
-    candidates.discs.reserve(4 * n);
-
-    const auto test = [&](const std::uint32_t p, const std::uint32_t q) {
-      double dx = g.x[p] - g.x[q], dy = g.y[p] - g.y[q];
-      periodicity.shorten(dx, dy);
-      const double reach = g.radius[p] + g.radius[q] + skin;
-      if (dx * dx + dy * dy < reach * reach)
-        candidates.discs.push_back(g.id[p] < g.id[q] ? ContactPair{p, q} : ContactPair{q, p});
-    };
-    for (std::uint32_t c = 0; c + 1 < grid.begin.size(); ++c)
-      {
-        const std::vector<std::uint32_t> &others = grid.partners(c);
-        for (std::uint32_t a = grid.begin[c]; a < grid.begin[c + 1]; ++a)
-          {
-            const std::uint32_t p = grid.member[a];
-            for (std::uint32_t b = a + 1; b < grid.begin[c + 1]; ++b)
-              test(p, grid.member[b]);
-            for (const std::uint32_t other : others)
-              for (std::uint32_t b = grid.begin[other]; b < grid.begin[other + 1]; ++b)
-                test(p, grid.member[b]);
-          }
-      }
-    sort_pairs(candidates.discs, n);
+    candidates.discs = find_pairs(g, periodicity, grid, skin);
 
     const auto &segments = geometry.walls.segments();
     for (std::size_t k = 0; k < segments.size(); ++k)

@@ -1,7 +1,7 @@
 // Cost and quality of the contact step on settled beds.
 //
 //   benchmark_contacts [--solver NAME] [--time SECONDS] [--dt DT]... [--shake V] [--fluidise A] [--kick V] [--set 'NAME
-//   = VALUE']... [--set 'SECTION/NAME = VALUE']... [--cold] [BED.bin]...
+//   = VALUE']... [--set 'SECTION/NAME = VALUE']... [--cold] [--search] [BED.bin]...
 //
 // Without beds it settles its own, of 2,000 and 10,000 discs. A bed file is int32 N, double width, then N rows of x y
 // radius vx vy spin * radius; its walls are x = 0, x = width and y = 0. --shake gives every grain a random velocity up
@@ -10,7 +10,9 @@
 // --kick V gives one grain in twenty a velocity of V m/s at the start.
 // --cold shows how one step from zero velocities and unknown impulses converges, against CPU time in units of one plain
 // sweep.
-// With mpirun, ranks share the work; each tells what it computed and sent.
+// --search tells what a contact search costs, with known impulses, and how much of it is looking for pairs.
+// With mpirun, ranks share the work; each tells what it computed and sent. Alone, the first bed also tells the memory.
+#include <alluvium/grains/contact_neighbours.h>
 #include <alluvium/grains/contact_stepper.h>
 #include <alluvium/grains/deposit.h>
 #include <alluvium/utilities/plugin.h>
@@ -28,6 +30,8 @@
 #include <random>
 #include <string>
 
+#include <sys/resource.h>
+
 using namespace alluvium;
 using namespace alluvium::grains;
 
@@ -36,6 +40,14 @@ namespace
   constexpr double density = 2630., gravity = 9.81;
 
   double seconds_in_mpi = 0.; // CPU time
+
+  /** The most memory that the program had up to now [kB]. */
+  double peak_memory()
+  {
+    rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+  }
 
   struct Bed
   {
@@ -106,12 +118,12 @@ namespace
     return bed;
   }
 
-  void set_walls(ContactStepper &stepper, const Bed &bed)
+  std::vector<WallSegment> walls_of(const Bed &bed)
   {
     const double w = bed.width, h = 1e3 * w;
-    stepper.set_walls({{{{0., h}}, {{0., 0.}}, {{0., 0.}}, "left"},
-                       {{{0., 0.}}, {{w, 0.}}, {{0., 0.}}, "bottom"},
-                       {{{w, 0.}}, {{w, h}}, {{0., 0.}}, "right"}});
+    return {{{{0., h}}, {{0., 0.}}, {{0., 0.}}, "left"},
+            {{{0., 0.}}, {{w, 0.}}, {{0., 0.}}, "bottom"},
+            {{{w, 0.}}, {{w, h}}, {{0., 0.}}, "right"}};
   }
 
   void measure(const Bed         &bed,
@@ -130,7 +142,7 @@ namespace
     prm.set("Contact solver", solver);
     prm.parse_input_from_string(set);
     const double w = bed.width;
-    set_walls(stepper, bed);
+    stepper.set_walls(walls_of(bed));
     stepper.set_communicator(MPI_COMM_WORLD);
     GrainLoads loads;
     loads.reset(g.n());
@@ -246,6 +258,52 @@ namespace
       unconverged);
   }
 
+  /** Search again and again, as if grains had moved. */
+  void measure_search(const Bed &bed, const double skin)
+  {
+    const GrainArrays &g = bed.grains;
+    ContactGeometry    geometry;
+    geometry.walls.set(walls_of(bed));
+    const double      reach = 2. * skin * *std::max_element(g.radius.begin(), g.radius.end());
+    ContactNeighbours neighbours;
+    neighbours.search(g, geometry, reach);
+    std::size_t n_contacts = 0;
+    for (auto *list : {&neighbours.pairs.discs, &neighbours.pairs.walls})
+      for (ContactPair &p : *list)
+        {
+          ContactPoint point;
+          const double gap = list == &neighbours.pairs.discs ? touch(g, geometry.periodicity, p.i, p.j).gap
+                             : geometry.walls.touch(p.j, g.x[p.i], g.y[p.i], g.radius[p.i], point) ? point.gap
+                                                                                                   : reach;
+          if (gap < 1e-3 * g.radius[p.i])
+            {
+              p.rn = 1.;
+              ++n_contacts;
+            }
+        }
+    const std::size_t n_pairs = neighbours.pairs.discs.size() + neighbours.pairs.walls.size();
+    const int         n_times = 5 + 500000 / g.n();
+    double            t       = cpu_seconds();
+    for (int k = 0; k < n_times; ++k)
+      find_candidates(g, geometry, reach);
+    const double finding = (cpu_seconds() - t) / n_times;
+    t                    = cpu_seconds();
+    for (int k = 0; k < n_times; ++k)
+      neighbours.search(g, geometry, reach);
+    const double all = (cpu_seconds() - t) / n_times;
+    std::printf("%s skin %.2f d: %zu contacts, %zu pairs; a search %.3f ms: finding pairs %.1f ns a contact (%.1f a "
+                "pair), with colours and impulses %.1f (%.1f)\n",
+                bed.name.c_str(),
+                skin,
+                n_contacts,
+                n_pairs,
+                1e3 * all,
+                1e9 * finding / n_contacts,
+                1e9 * finding / n_pairs,
+                1e9 * all / n_contacts,
+                1e9 * all / n_pairs);
+  }
+
   struct ColdRun
   {
     double        seconds, support, velocity;
@@ -267,7 +325,7 @@ namespace
     prm.set("Loose factor", "1");
     prm.set("Overlap correction", "0"); // opening overlaps would lift the bed, and the floor carry more than its weight
     prm.parse_input_from_string(set);
-    set_walls(stepper, bed);
+    stepper.set_walls(walls_of(bed));
     GrainLoads loads;
     loads.reset(g.n());
     double weight = 0.;
@@ -369,7 +427,7 @@ int main(int argc, char **argv)
   std::string         solver = "accelerated Gauss-Seidel";
   double              time = 0.05, shake = 0., fluidise = 0., kick = 0.;
   std::string         set;
-  bool                cold = false;
+  bool                cold = false, search = false;
   std::vector<double> dts;
   std::vector<Bed>    beds;
   for (int k = 1; k < argc; ++k)
@@ -395,6 +453,8 @@ int main(int argc, char **argv)
         fluidise = std::atof(argv[++k]);
       else if (a == "--cold")
         cold = true;
+      else if (a == "--search")
+        search = true;
       else if (a == "--kick" && k + 1 < argc)
         kick = std::atof(argv[++k]);
       else if (a == "--shake" && k + 1 < argc)
@@ -407,10 +467,18 @@ int main(int argc, char **argv)
       beds.push_back(settle_bed(n));
   if (dts.empty())
     dts = {1e-4, 1e-3};
+  const double empty = peak_memory();
   for (const Bed &bed : beds)
-    for (const double dt : dts)
-      if (cold)
-        measure_cold(bed, solver, dt, set);
-      else
-        measure(bed, solver, dt, time, shake, fluidise, kick, set);
+    if (search)
+      measure_search(bed, 0.15);
+    else
+      for (const double dt : dts)
+        {
+          if (cold)
+            measure_cold(bed, solver, dt, set);
+          else
+            measure(bed, solver, dt, time, shake, fluidise, kick, set);
+          if (&bed == &beds.front() && dt == dts.front())
+            std::printf("peak memory %.3f kB a disc, grains included\n", (peak_memory() - empty) / bed.grains.n());
+        }
 }

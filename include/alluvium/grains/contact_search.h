@@ -90,7 +90,4 @@ namespace alluvium::grains
    * finite, and UserError if a periodic box is so narrow that a grain could touch two images of another.
    */
   ContactCandidates find_candidates(const GrainArrays &grains, const ContactGeometry &geometry, double skin);
-
-  /** Sort by (i, j), where i is one of @p n grains. */
-  void sort_pairs(std::vector<ContactPair> &pairs, std::size_t n);
 } // namespace alluvium::grains
