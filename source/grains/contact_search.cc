@@ -39,11 +39,9 @@ namespace alluvium::grains
       int                        nx, ny;
       std::vector<std::uint32_t> begin, member; // grains of cell c: member[begin[c]] ... member[begin[c + 1] - 1]
 
-      int column(const double x) const
-      {
-        return std::clamp(static_cast<int>(std::floor((x - x0) / width_x)), 0, nx - 1);
-      }
-      int row(const double y) const { return std::clamp(static_cast<int>(std::floor((y - y0) / width_y)), 0, ny - 1); }
+      // Towards zero is downwards, except where clamping makes it 0 anyway.
+      int column(const double x) const { return std::clamp(static_cast<int>((x - x0) / width_x), 0, nx - 1); }
+      int row(const double y) const { return std::clamp(static_cast<int>((y - y0) / width_y), 0, ny - 1); }
 
       CellGrid(const GrainArrays &g, const Periodicity &periodicity, const double smallest_width)
       {
@@ -272,29 +270,33 @@ namespace alluvium::grains
       struct Body
       {
         double        x, y, radius;
-        std::uint32_t number;
+        std::uint32_t number, id;
       };
       std::vector<Body> bodies(g.n());
       for (std::size_t k = 0; k < bodies.size(); ++k)
         {
           const std::uint32_t m = grid.member[k];
-          bodies[k]             = {g.x[m], g.y[m], g.radius[m], m};
+          bodies[k]             = {g.x[m], g.y[m], g.radius[m], m, g.id[m]};
         }
       struct Pair
       {
         std::uint32_t i, j;
       };
-      std::vector<Pair> found;
-      found.reserve(3 * g.n());
-      const auto test = [&](const Body &p, const std::uint32_t begin, const std::uint32_t end) {
+      std::vector<Pair> found(3 * g.n());
+      std::size_t       n_found = 0;
+      const auto        test    = [&](const Body &p, const std::uint32_t begin, const std::uint32_t end) {
+        if (n_found + (end - begin) > found.size())
+          found.resize(found.size() + found.size() / 4 + (end - begin));
         for (std::uint32_t k = begin; k < end; ++k)
           {
             const Body &q  = bodies[k];
             double      dx = p.x - q.x, dy = p.y - q.y;
             periodicity.shorten(dx, dy);
             const double reach = p.radius + q.radius + skin;
-            if (dx * dx + dy * dy < reach * reach)
-              found.push_back(g.id[p.number] < g.id[q.number] ? Pair{p.number, q.number} : Pair{q.number, p.number});
+            // Nobody can predict which are near: write the pair down in any case, and keep it if so.
+            const std::uint32_t first = p.id < q.id ? p.number : q.number;
+            found[n_found]            = {first, p.number ^ q.number ^ first};
+            n_found += dx * dx + dy * dy < reach * reach;
           }
       };
       const std::vector<std::uint32_t> &begin = grid.begin;
@@ -327,6 +329,7 @@ namespace alluvium::grains
                 test(bodies[a], first, last);
               }
           }
+      found.resize(n_found);
       sort_pairs(found, g.n());
       std::vector<ContactPair> pairs;
       pairs.reserve(found.size());
