@@ -1,4 +1,5 @@
 #include <alluvium/grains/contact_active_set.h>
+#include <alluvium/grains/contact_pair_geometry.h>
 #include <alluvium/grains/contact_reductions.h>
 
 #include <algorithm>
@@ -67,43 +68,38 @@ namespace alluvium::grains
     const auto spin = [&](const std::uint32_t k) { return grains.radius[k] * grains.omega[k]; };
 
     const auto &free        = bodies.free;
-    const auto  select_disc = [&](const std::size_t k) {
-      ContactPair &p  = candidates.discs[k];
-      const Disc  &vi = free[p.i], &vj = free[p.j];
-      double       dx = grains.x[p.j] - grains.x[p.i], dy = grains.y[p.j] - grains.y[p.i];
-      geometry.periodicity.shorten(dx, dy);
-      const double distance = std::sqrt(dx * dx + dy * dy), gap = distance - (grains.radius[p.i] + grains.radius[p.j]);
-      const double approach = (vj.x - vi.x) * dx + (vj.y - vi.y) * dy;
-      if (!(keep && disc_takes_part[k]) && gap >= nearness && (gap - nearness) * distance + h * approach >= 0.)
+    const auto  select_disc = [&](const std::size_t k, const PairGeometry &all, const unsigned int m) {
+      ContactPair &p   = candidates.discs[k];
+      const double gap = all.gap[m], approach = all.approach[m];
+      if (!(keep && disc_takes_part[k]) && gap >= nearness && (gap - nearness) * all.distance[m] + h * approach >= 0.)
         {
           p.rn = p.rt = p.rr = 0.;
           return;
         }
-      if (vi.inverse_mass + vj.inverse_mass == 0.)
+      if (free[p.i].inverse_mass + free[p.j].inverse_mass == 0.)
         return;
-      disc_takes_part[k]          = 1;
-      const ContactMaterial &m    = materials.grains;
-      const double           over = distance > 0. ? 1. / distance : 0.;
-      const double           nx = distance > 0. ? dx * over : 1., ny = dy * over;
+      disc_takes_part[k]              = 1;
+      const ContactMaterial &material = materials.grains;
+      const double           nx = all.nx[m], ny = all.ny[m], free_vn = all.vn[m];
       double                 start_vn = 0.;
-      if (m.restitution > 0. || materials.law)
+      if (material.restitution > 0. || materials.law)
         start_vn = (grains.vx[p.j] - grains.vx[p.i]) * nx + (grains.vy[p.j] - grains.vy[p.i]) * ny;
       Contact &c = add(p, k, gap);
       c.nx       = nx;
       c.ny       = ny;
-      c.friction = m.friction;
+      c.friction = material.friction;
       c.j        = p.j;
       if (!materials.law)
-        c.bias_n = margins.bias(gap, start_vn, approach * over, m.restitution);
+        c.bias_n = margins.bounce(all.bias[m], gap, start_vn, free_vn, material.restitution);
       else
         {
           const double vt = (grains.vy[p.j] - grains.vy[p.i]) * nx - (grains.vx[p.j] - grains.vx[p.i]) * ny;
-          add_state(m, {gap, start_vn, approach * over, std::abs(vt - (spin(p.i) + spin(p.j)))});
+          add_state(material, {gap, start_vn, free_vn, std::abs(vt - (spin(p.i) + spin(p.j)))});
         }
       if (materials.rolls)
         {
           const double ri = grains.radius[p.i], rj = grains.radius[p.j], reduced = ri * rj / (ri + rj);
-          add_rolling(p, reduced / ri, reduced / rj, 0., m.rolling);
+          add_rolling(p, reduced / ri, reduced / rj, 0., material.rolling);
         }
     };
     std::uint32_t dummy       = 0;
@@ -135,7 +131,7 @@ namespace alluvium::grains
       c.friction                      = m.friction;
       c.j                             = bodies.n_discs() + dummy++ % ContactBodies::n_dummies;
       if (!materials.law)
-        c.bias_n += margins.bias(point.gap, start_vn, free_vn, m.restitution);
+        c.bias_n += margins.bounce(margins.bias(point.gap), point.gap, start_vn, free_vn, m.restitution);
       else
         add_state(m, {point.gap, start_vn, free_vn, std::abs(vy * point.nx - vx * point.ny - spin(p.i))});
       if (materials.rolls)
@@ -147,11 +143,23 @@ namespace alluvium::grains
         problem.contacts.reserve(2 * problem.n_owned_discs); // about what a settled bed has
         number.reserve(2 * problem.n_owned_discs);
       }
-    std::size_t disc = 0, wall = 0;
+    std::size_t  disc = 0, wall = 0;
+    PairGeometry some;
     for (unsigned int colour = 0; colour < n_colours; ++colour)
       {
         for (; disc < candidates.discs.size() && candidates.discs[disc].colour == colour; ++disc)
-          select_disc(disc);
+          {
+            const unsigned int m = disc % PairGeometry::most;
+            if (m == 0)
+              find_geometry(&candidates.discs[disc],
+                            std::min<std::size_t>(PairGeometry::most, candidates.discs.size() - disc),
+                            grains,
+                            free,
+                            geometry.periodicity,
+                            margins,
+                            some);
+            select_disc(disc, some, m);
+          }
         for (; wall < candidates.walls.size() && candidates.walls[wall].colour == colour; ++wall)
           select_wall(wall);
         problem.colour_begin.push_back(problem.contacts.size());
@@ -173,7 +181,8 @@ namespace alluvium::grains
       {
         const ContactState &s        = states[k];
         problem.contacts[k].friction = coefficients[k].friction;
-        problem.contacts[k].bias_n += margins.bias(s.gap, s.start_vn, s.free_vn, coefficients[k].restitution);
+        problem.contacts[k].bias_n +=
+          margins.bounce(margins.bias(s.gap), s.gap, s.start_vn, s.free_vn, coefficients[k].restitution);
         if (!problem.rolling.empty())
           problem.rolling[k].coefficient = coefficients[k].rolling;
       }
@@ -263,25 +272,31 @@ namespace alluvium::grains
     overlaps.resize(std::max(overlaps.size(), problem.contacts.size()));
     std::size_t n_overlaps = 0;
     largest                = 0.;
+    double gaps[PairGeometry::most];
     for (std::size_t k = 0; k < problem.contacts.size(); ++k)
       {
-        const Contact &c   = problem.contacts[k];
-        double         gap = 0.;
+        const Contact     &c = problem.contacts[k];
+        const unsigned int m = k % PairGeometry::most;
+        if (m == 0)
+          find_gaps(&c,
+                    std::min<std::size_t>(PairGeometry::most, problem.contacts.size() - k),
+                    grains,
+                    geometry.periodicity,
+                    gaps);
         if (!problem.counts(c))
           continue;
-        if (!is_wall(k, candidates))
+        if (is_wall(k, candidates))
           {
-            double dx = grains.x[c.j] - grains.x[c.i], dy = grains.y[c.j] - grains.y[c.i];
-            geometry.periodicity.shorten(dx, dy);
-            gap = std::sqrt(dx * dx + dy * dy) - (grains.radius[c.i] + grains.radius[c.j]);
+            ContactPoint point;
+            gaps[m] =
+              geometry.walls.touch(pair(k, candidates).j, grains.x[c.i], grains.y[c.i], grains.radius[c.i], point)
+                ? point.gap
+                : 0.;
           }
-        else if (ContactPoint point;
-                 geometry.walls.touch(pair(k, candidates).j, grains.x[c.i], grains.y[c.i], grains.radius[c.i], point))
-          gap = point.gap;
         // Half of them overlap, nobody knows which: keep it, perhaps to be overwritten, rather than branch.
-        overlaps[n_overlaps] = -gap;
-        n_overlaps += gap < 0.;
-        largest = std::max(largest, -gap);
+        overlaps[n_overlaps] = -gaps[m];
+        n_overlaps += gaps[m] < 0.;
+        largest = std::max(largest, -gaps[m]);
       }
     largest               = max_over_ranks(problem.communicator, largest);
     const std::size_t n   = count_over_ranks(problem.communicator, n_overlaps);

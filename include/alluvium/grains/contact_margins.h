@@ -1,6 +1,7 @@
 #pragma once
 
 #include <alluvium/grains/contact_bodies.h>
+#include <alluvium/grains/contact_cone.h>
 
 #include <algorithm>
 
@@ -22,18 +23,26 @@ namespace alluvium::grains
     bool   gentle     = false; // overlaps do not open at all, and nothing bounces
 
     /**
-     * The bias of a contact with v_n + bias >= 0 at the end: gaps within delta count as closed, so that a bed at rest
-     * does not chatter; overlaps open at bounded speed; impacts bounce. Velocities as in ContactState.
+     * The bias of contacts with v_n + bias >= 0 at the end, for one gap or several: gaps within delta count as closed,
+     * so that a bed at rest does not chatter; overlaps open at bounded speed.
      */
-    double bias(const double gap, const double start_vn, const double free_vn, const double restitution) const
+    template <typename T>
+    ALLUVIUM_INLINE T bias(const T &gap) const
     {
       // No branch: nobody can predict which contacts are open.
-      const bool   open  = gap > delta;
-      const double speed = (open ? gap - delta : correction * (gap + delta)) / (open ? h : base_h);
-      double       b     = std::max(speed, -push_out);
-      b                  = open || (gap < -delta && !gentle) ? b : 0.;
+      const T none{};
+      T       closing = (gap - delta) / h, opening = correction * (gap + delta) / base_h;
+      raise_to(opening, none - push_out);
+      opening = gap < none - delta ? opening : none;
+      return gap > none + delta ? closing : (gentle ? none : opening);
+    }
+
+    /** That of a contact with @p restitution, if it has the bias @p b without. Velocities as in ContactState. */
+    double bounce(
+      const double b, const double gap, const double start_vn, const double free_vn, const double restitution) const
+    {
       if (restitution > 0. && !gentle && start_vn < -threshold && gap + h * free_vn < delta)
-        b = gap > 0. ? restitution * start_vn : std::min(b, restitution * start_vn);
+        return gap > 0. ? restitution * start_vn : std::min(b, restitution * start_vn);
       return b;
     }
   };
