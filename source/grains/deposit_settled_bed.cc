@@ -110,10 +110,10 @@ namespace alluvium::grains
     double       height = 0., d_min = 2e-4, ratio = 1.2, friction = 0.4, packing = 0.;
     std::string  cache = "deposits", box_text;
 
-    /** Everything that makes the bed what it is; the version stands for this code and that of the contacts. */
+    /** Everything that makes the bed what it is; versions stand for the code. */
     std::string write_recipe(const DepositContext &context, const DepositBox &box, const double g) const
     {
-      std::string recipe = "settled bed, version 2\n";
+      std::string recipe = "settled bed, version 2, settled by version " + std::to_string(settling_version) + "\n";
       for (const auto &[name, value] : {std::make_pair("x0", box.lower[0]),
                                         std::make_pair("y0", box.lower[1]),
                                         std::make_pair("x1", box.upper[0]),
@@ -186,7 +186,7 @@ namespace alluvium::grains
     settle(const DepositContext &context, const DepositBox &box, const double g) const
     {
       const double      looseness = packing > 0. ? loose : 0.;
-      const Settling    settling{box, g, packing > 0. ? find_friction(context, box, g) : friction};
+      const Settling    settling{box, g, packing > 0. ? find_friction(context, box, g) : friction, packing > 0.};
       std::vector<Seed> seeds = pour(context, box, looseness, n_wanted);
       SettledState      state = bring_to_rest(settling, seeds);
       if (n_wanted == 0)
@@ -195,7 +195,7 @@ namespace alluvium::grains
           seeds.erase(std::remove_if(seeds.begin(), seeds.end(), [top](const Seed &s) { return s.y + s.radius > top; }),
                       seeds.end());
           check_user(!seeds.empty(), "The deposit 'settled bed' has no grains: its 'Bed height' is less than one.");
-          state = bring_to_rest(settling, seeds);
+          state = bring_to_rest({box, g, settling.friction}, seeds);
         }
       return {seeds, state};
     }
@@ -213,7 +213,7 @@ namespace alluvium::grains
       double             best = 0., best_off = std::numeric_limits<double>::max();
       const auto         packing_at = [&](const double mu) {
         std::vector<Seed> seeds = pour(context, sample, loose, n);
-        const double      now   = bring_to_rest({sample, g, mu}, seeds).packing;
+        const double      now   = bring_to_rest({sample, g, mu, true}, seeds).packing;
         if (std::abs(now - packing) < best_off)
           {
             best     = mu;

@@ -155,6 +155,37 @@ TEST(Deposits, SettledBedStandsAndItsWallsCarryIt)
     EXPECT_NEAR(grains.y[k], before.y[k], 2e-3 * 2e-4);
 }
 
+// A run that starts from a settled bed, without knowing its contact forces, leaves it where it is, with long steps and
+// short ones.
+TEST(Deposits, SettledBedStays)
+{
+  const auto c     = context(1e-2, 3e-2);
+  const auto seeds = make("settled bed", "set Number of grains = 2000\nset Cache folder =", c);
+  for (const double dt : {1e-3, 1e-4})
+    {
+      GrainArrays    grains = arrays(seeds);
+      ContactStepper stepper;
+      stepper.set_walls(box(c));
+      stepper.settings().residual_tolerance = 1e-7;
+      stepper.settings().rest_steps         = 0;
+      GrainLoads loads;
+      loads.reset(grains.n());
+      double weight = 0., support = 0.;
+      for (std::size_t k = 0; k < grains.n(); ++k)
+        {
+          loads.fy[k] = -grains.mass[k] * 9.81;
+          weight += grains.mass[k] * 9.81;
+        }
+      const auto n_steps = static_cast<int>(std::lround(0.01 / dt));
+      for (int step = 0; step < n_steps; ++step)
+        for (const auto &[name, force] : stepper.advance(grains, loads, dt, {{0., -9.81}}).wall_force)
+          support -= force[1] / weight / n_steps;
+      EXPECT_NEAR(support, 1., 1e-4) << dt;
+      for (std::size_t k = 0; k < grains.n(); ++k)
+        EXPECT_LT(std::hypot(grains.x[k] - seeds[k].x, grains.y[k] - seeds[k].y), 3e-4 * 2e-4) << dt;
+    }
+}
+
 // Each disc lies on what was there before and in nobody else; a hundred thousand of them make rare events happen.
 TEST(Deposits, PouredDiscsDoNotOverlap)
 {
