@@ -17,8 +17,12 @@ namespace alluvium::grains
                         area_fraction,
                         "Disc area over area of a lattice cell [-], at most pi/4. Used if 'Spacing' is 0.",
                         Double(0., 0.785398163397449));
-      prm.add_parameter(
-        "Spacing", spacing, "Distance of neighbouring centres [m]. 0: what the area fraction makes it.", Double(0.));
+      prm.add_parameter("Spacing",
+                        spacing,
+                        "Distance of neighbouring centres [m]; a little more in the directions in which the domain is "
+                        "periodic, so that "
+                        "whole cells fill it. 0: what the area fraction makes it.",
+                        Double(0.));
       prm.add_parameter("Box", box_text, deposit_box_prose);
     }
 
@@ -35,11 +39,13 @@ namespace alluvium::grains
       // As many whole cells as fit, centred in the box.
       const int nx = static_cast<int>(box.width() / a + 1e-9), ny = static_cast<int>(box.height() / a + 1e-9);
       check_user(nx > 0 && ny > 0, "The deposit 'lattice' has no grains: its box is smaller than one lattice cell.");
+      // Over the seams of a periodic domain it goes on evenly.
+      const double      ax = box.periodic[0] ? box.width() / nx : a, ay = box.periodic[1] ? box.height() / ny : a;
       std::vector<Seed> seeds;
       for (int row = 0; row < ny; ++row)
         for (int column = 0; column < nx; ++column)
-          seeds.push_back({0.5 * (box.lower[0] + box.upper[0]) + (column - 0.5 * (nx - 1)) * a,
-                           0.5 * (box.lower[1] + box.upper[1]) + (row - 0.5 * (ny - 1)) * a,
+          seeds.push_back({0.5 * (box.lower[0] + box.upper[0]) + (column - 0.5 * (nx - 1)) * ax,
+                           0.5 * (box.lower[1] + box.upper[1]) + (row - 0.5 * (ny - 1)) * ay,
                            0.5 * diameter,
                            context.density});
       return seeds;

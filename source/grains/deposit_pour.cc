@@ -9,22 +9,46 @@ namespace alluvium::grains
   Pour::Pour(const DepositBox &box, const double largest_radius, const double looseness)
     : box(box)
     , cell(2. * largest_radius)
+    , column_width(box.periodic[0] ? box.width() / static_cast<int>(box.width() / cell) : cell)
     , looseness(looseness)
-    , n_columns(static_cast<int>(box.width() / cell) + 1)
+    , n_columns(static_cast<int>(box.width() / cell) + (box.periodic[0] ? 0 : 1))
   {}
+
+  Pour::Disc Pour::seen_from(const double x, const int k) const
+  {
+    Disc d = discs[k];
+    if (box.periodic[0])
+      d.x += box.width() * std::round((x - d.x) / box.width());
+    return d;
+  }
+
+  int Pour::column_of(const double x) const
+  {
+    return static_cast<int>(std::floor((x - box.lower[0]) / column_width));
+  }
+
+  template <class Visit>
+  void Pour::visit_columns(const int first, const int last, const Visit &visit) const
+  {
+    if (!box.periodic[0])
+      for (int column = std::max(0, first); column <= std::min(n_columns - 1, last); ++column)
+        visit(column);
+    else
+      for (int column = first; column <= std::min(last, first + n_columns - 1); ++column)
+        visit((column % n_columns + n_columns) % n_columns);
+  }
 
   template <class Visit>
   void Pour::visit_near(const double x, const double y, const double reach, const Visit &visit) const
   {
     const int n_rows = static_cast<int>(cells.size()) / n_columns;
-    const int c0     = std::max(0, static_cast<int>((x - reach - box.lower[0]) / cell));
-    const int c1     = std::min(n_columns - 1, static_cast<int>((x + reach - box.lower[0]) / cell));
     const int r0     = std::max(0, static_cast<int>((y - reach - box.lower[1]) / cell));
     const int r1     = std::min(n_rows - 1, static_cast<int>((y + reach - box.lower[1]) / cell));
     for (int row = r0; row <= r1; ++row)
-      for (int column = c0; column <= c1; ++column)
+      visit_columns(column_of(x - reach), column_of(x + reach), [&](const int column) {
         for (const int k : cells[static_cast<std::size_t>(row) * n_columns + column])
           visit(k);
+      });
   }
 
   int Pour::land(const double x, double &y, const double radius, const int except) const
@@ -32,17 +56,15 @@ namespace alluvium::grains
     int       support = -1;
     double    best    = box.lower[1] + radius;
     const int n_rows  = static_cast<int>(cells.size()) / n_columns;
-    const int c0      = std::max(0, static_cast<int>((x - cell - box.lower[0]) / cell));
-    const int c1      = std::min(n_columns - 1, static_cast<int>((x + cell - box.lower[0]) / cell));
     const int start =
       std::isfinite(y) ? std::min(n_rows - 1, static_cast<int>((y - box.lower[1]) / cell) + 1) : n_rows - 1;
     const double ceiling = y + 1e-9 * radius;
     // Downwards, until no disc of a lower row can reach what has been found.
     for (int row = start; row >= 0 && box.lower[1] + (row + 2) * cell > best; --row)
-      for (int column = c0; column <= c1; ++column)
+      visit_columns(column_of(x - cell), column_of(x + cell), [&](const int column) {
         for (const int k : cells[static_cast<std::size_t>(row) * n_columns + column])
           {
-            const Disc  &d     = discs[k];
+            const Disc   d     = seen_from(x, k);
             const double reach = radius + d.r, dx = x - d.x;
             if (k == except || std::abs(dx) >= reach * (1. - 1e-12))
               continue;
@@ -53,6 +75,7 @@ namespace alluvium::grains
                 support = k;
               }
           }
+      });
     y = best;
     return support;
   }
@@ -63,7 +86,7 @@ namespace alluvium::grains
     int    support = land(x, y, r, -1);
     for (unsigned int move = 0; support >= 0 && move < 1000; ++move)
       {
-        const Disc  &c     = discs[support];
+        const Disc   c     = seen_from(x, support);
         const double reach = c.r + r, side = x >= c.x ? 1. : -1.;
         // Roll around the support. Angles are from the vertical, positive on our side; the first event ends the roll.
         const double now = std::atan2(side * (x - c.x), y - c.y);
@@ -79,7 +102,7 @@ namespace alluvium::grains
 
         const double wall    = side > 0. ? box.upper[0] - r : box.lower[0] + r;
         const double to_wall = std::max(0., side * (wall - c.x));
-        if (to_wall < reach && std::asin(to_wall / reach) <= angle)
+        if (!box.periodic[0] && to_wall < reach && std::asin(to_wall / reach) <= angle)
           {
             angle = std::asin(to_wall / reach);
             event = Event::wall;
@@ -93,7 +116,7 @@ namespace alluvium::grains
         visit_near(c.x, c.y, 2. * cell, [&](const int k) {
           if (k == support)
             return;
-          const Disc  &e  = discs[k];
+          const Disc   e  = seen_from(c.x, k);
           const double dx = e.x - c.x, dy = e.y - c.y, d2 = dx * dx + dy * dy, d = std::sqrt(d2), other = e.r + r;
           if (d >= reach + other)
             return;
@@ -124,7 +147,7 @@ namespace alluvium::grains
             support = land(x, y, r, support);
             continue;
           }
-        if (side * (discs[next].x - x) > 0.) // it rests between its two supports
+        if (side * (seen_from(x, next).x - x) > 0.) // it rests between its two supports
           break;
         support = next;
       }
@@ -137,7 +160,8 @@ namespace alluvium::grains
     const bool            stays = looseness > 0. && random.uniform(0., 1.) < looseness;
     for (unsigned int attempt = 0; attempt < (stays ? 1 : 3); ++attempt)
       {
-        const double x = random.uniform(box.lower[0] + radius, box.upper[0] - radius);
+        const double margin = box.periodic[0] ? 0. : radius;
+        const double x      = random.uniform(box.lower[0] + margin, box.upper[0] - margin);
         if (stays)
           {
             best = {{x, std::numeric_limits<double>::infinity()}};
@@ -148,7 +172,9 @@ namespace alluvium::grains
         if (place[1] < best[1])
           best = place;
       }
-    const int column = std::clamp(static_cast<int>((best[0] - box.lower[0]) / cell), 0, n_columns - 1);
+    if (double nowhere = 0.; box.periodic[0])
+      box.periodicity().wrap(best[0], nowhere, 0);
+    const int column = std::clamp(column_of(best[0]), 0, n_columns - 1);
     const int row    = std::max(0, static_cast<int>((best[1] - box.lower[1]) / cell));
     if (cells.size() < static_cast<std::size_t>(row + 1) * n_columns)
       cells.resize(static_cast<std::size_t>(row + 1) * n_columns);

@@ -45,28 +45,46 @@ namespace alluvium::grains
       std::sort(radii.rbegin(), radii.rend()); // the large ones first, while there is room
 
       const double cell = d_min * ratio + gap;
-      const int    nx = static_cast<int>(box.width() / cell) + 1, ny = static_cast<int>(box.height() / cell) + 1;
+      // In a periodic direction the cells fill the box.
+      const auto n_cells = [&](const double length, const bool periodic) {
+        return periodic ? std::max(1, static_cast<int>(length / cell)) : static_cast<int>(length / cell) + 1;
+      };
+      const int    nx = n_cells(box.width(), box.periodic[0]), ny = n_cells(box.height(), box.periodic[1]);
+      const double width                                = box.periodic[0] ? box.width() / nx : cell,
+                   height                               = box.periodic[1] ? box.height() / ny : cell;
+      const Periodicity                     periodicity = box.periodicity();
       std::vector<std::vector<std::size_t>> members(static_cast<std::size_t>(nx) * ny);
       std::vector<Seed>                     seeds;
-      constexpr unsigned int                n_tries = 20000;
+      const std::vector<std::size_t>        nobody;
+      const auto                            members_at = [&](int p, int q) -> const std::vector<std::size_t>                            &{
+        if (box.periodic[0])
+          p = (p + nx) % nx;
+        if (box.periodic[1])
+          q = (q + ny) % ny;
+        return p < 0 || p >= nx || q < 0 || q >= ny ? nobody : members[static_cast<std::size_t>(q) * nx + p];
+      };
+      constexpr unsigned int n_tries = 20000;
       for (const double r : radii)
         {
-          const double margin = r + gap;
+          const double margin = r + gap, margin_x = box.periodic[0] ? 0. : margin,
+                       margin_y = box.periodic[1] ? 0. : margin;
           check_user(box.width() > 2. * margin && box.height() > 2. * margin,
                      "The deposit 'random suspension': its box is smaller than a disc.");
           bool placed = false;
           for (unsigned int attempt = 0; attempt < n_tries && !placed; ++attempt)
             {
-              const double x      = random.uniform(box.lower[0] + margin, box.upper[0] - margin);
-              const double y      = random.uniform(box.lower[1] + margin, box.upper[1] - margin);
-              const int    column = static_cast<int>((x - box.lower[0]) / cell),
-                        row       = static_cast<int>((y - box.lower[1]) / cell);
+              const double x      = random.uniform(box.lower[0] + margin_x, box.upper[0] - margin_x);
+              const double y      = random.uniform(box.lower[1] + margin_y, box.upper[1] - margin_y);
+              const int    column = std::min(nx - 1, static_cast<int>((x - box.lower[0]) / width)),
+                        row       = std::min(ny - 1, static_cast<int>((y - box.lower[1]) / height));
               placed              = true;
-              for (int q = std::max(0, row - 1); q <= std::min(ny - 1, row + 1) && placed; ++q)
-                for (int p = std::max(0, column - 1); p <= std::min(nx - 1, column + 1) && placed; ++p)
-                  for (const std::size_t k : members[static_cast<std::size_t>(q) * nx + p])
+              for (int q = row - 1; q <= row + 1 && placed; ++q)
+                for (int p = column - 1; p <= column + 1 && placed; ++p)
+                  for (const std::size_t k : members_at(p, q))
                     {
-                      const double dx = seeds[k].x - x, dy = seeds[k].y - y, reach = seeds[k].radius + margin;
+                      double       dx = seeds[k].x - x, dy = seeds[k].y - y;
+                      const double reach = seeds[k].radius + margin;
+                      periodicity.shorten(dx, dy);
                       placed = placed && dx * dx + dy * dy >= reach * reach;
                     }
               if (placed)

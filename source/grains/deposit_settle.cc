@@ -26,10 +26,14 @@ namespace alluvium::grains
 
     std::vector<WallSegment> floor_and_sides(const DepositBox &box)
     {
-      const double far = box.upper[1] + 1e3 * (box.width() + box.height());
-      return {{box.lower, {{box.upper[0], box.lower[1]}}, {{0., 0.}}, "floor"},
-              {{{box.lower[0], far}}, box.lower, {{0., 0.}}, "left"},
-              {{{box.upper[0], box.lower[1]}}, {{box.upper[0], far}}, {{0., 0.}}, "right"}};
+      const double             far   = box.upper[1] + 1e3 * (box.width() + box.height());
+      std::vector<WallSegment> walls = {{box.lower, {{box.upper[0], box.lower[1]}}, {{0., 0.}}, "floor"}};
+      if (!box.periodic[0])
+        {
+          walls.push_back({{{box.lower[0], far}}, box.lower, {{0., 0.}}, "left"});
+          walls.push_back({{{box.upper[0], box.lower[1]}}, {{box.upper[0], far}}, {{0., 0.}}, "right"});
+        }
+      return walls;
     }
     /** A bed in a thick fluid, in which a falling grain sinks by g 2 dt^2 a step, and nothing swings. */
     class ThickBed
@@ -38,6 +42,7 @@ namespace alluvium::grains
       ThickBed(const Settling &settling, const std::vector<Seed> &seeds)
         : settling(settling)
         , n(seeds.size())
+        , periodicity({settling.box.lower, {{settling.box.periodicity().length[0], 0.}}})
       {
         grains.resize(n);
         loads.reset(n);
@@ -65,6 +70,7 @@ namespace alluvium::grains
           std::fill(v->begin(), v->end(), 0.);
         stepper = std::make_unique<ContactStepper>();
         stepper->set_walls(floor_and_sides(settling.box));
+        stepper->set_periodicity(periodicity);
         ContactSettings &settings = stepper->settings();
         settings.friction = settings.wall_friction = settling.friction;
         settings.rest_steps                        = 0; // what is still is judged here
@@ -88,7 +94,9 @@ namespace alluvium::grains
         n_moved       = 0;
         for (std::size_t k = 0; k < n; ++k)
           {
-            const double way = std::hypot(grains.x[k] - x[k], grains.y[k] - y[k]);
+            double dx = grains.x[k] - x[k], dy = grains.y[k] - y[k];
+            periodicity.shorten(dx, dy);
+            const double way = std::hypot(dx, dy);
             square += way * way;
             n_moved += way > 1e-3 * smallest;
           }
@@ -108,6 +116,7 @@ namespace alluvium::grains
 
     private:
       const std::size_t               n;
+      const Periodicity               periodicity; // there is always a floor
       GrainLoads                      loads;
       double                          dt = 0., weight = 0., moved = 0.; // root mean square
       std::size_t                     n_moved = 0;

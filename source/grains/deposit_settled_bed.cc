@@ -87,6 +87,8 @@ namespace alluvium::grains
                  "The deposit 'settled bed' has no grains: set its 'Number of grains' or 'Bed height'.");
       const DepositBox box = parse_deposit_box(box_text, context);
       check_user(box.width() > 2. * d_min * ratio, "The deposit 'settled bed': its box is narrower than two grains.");
+      check_user(!box.periodic[0] || box.width() > 4. * d_min * ratio,
+                 "The deposit 'settled bed': its box is periodic and narrower than four grains.");
 
       // The bed settles straight down whatever way the scene is tilted.
       const double g_scene = std::hypot(context.gravity[0], context.gravity[1]), g = g_scene > 0. ? g_scene : 9.81;
@@ -124,6 +126,7 @@ namespace alluvium::grains
                                         std::make_pair("seed", double(seed)),
                                         std::make_pair("friction", packing > 0. ? 0. : friction),
                                         std::make_pair("packing", packing),
+                                        std::make_pair("periodic", double(box.periodic[0])),
                                         std::make_pair("density", context.density),
                                         std::make_pair("gravity", g)})
         recipe += std::string(name) + " = " + exact(value) + "\n";
@@ -209,9 +212,10 @@ namespace alluvium::grains
       const bool         small  = n_wanted > 0 && n_wanted <= 4000;
       const unsigned int n      = small ? n_wanted : 2000;
       const double       width  = small ? box.width() : 45. * d_min * ratio;
-      const DepositBox   sample = {box.lower, {{box.lower[0] + width, box.lower[1] + 1e3 * width}}};
-      double             best = 0., best_off = std::numeric_limits<double>::max();
-      const auto         packing_at = [&](const double mu) {
+      const DepositBox   sample = {
+          box.lower, {{box.lower[0] + width, box.lower[1] + 1e3 * width}}, {{box.periodic[0], false}}};
+      double     best = 0., best_off = std::numeric_limits<double>::max();
+      const auto packing_at = [&](const double mu) {
         std::vector<Seed> seeds = pour(context, sample, loose, n);
         const double      now   = bring_to_rest({sample, g, mu, true}, seeds).packing;
         if (std::abs(now - packing) < best_off)

@@ -201,7 +201,8 @@ namespace alluvium::scene
                                                         walls,
                                                         density,
                                                         gravity,
-                                                        directory});
+                                                        directory,
+                                                        domain.periodicity()});
                                   std::vector<double> flat;
                                   for (const auto &s : seeds)
                                     flat.insert(flat.end(), {s.x, s.y, s.radius, s.density, s.vx, s.vy, s.omega});

@@ -190,9 +190,9 @@ TEST(Deposits, SettledBedStays)
 TEST(Deposits, PouredDiscsDoNotOverlap)
 {
   constexpr double d = 2e-4;
-  for (const double looseness : {0., 0.3})
+  for (const auto &[looseness, periodic] : {std::make_pair(0., false), {0.3, false}, {0., true}})
     {
-      const DepositBox box{{{-0.035, -0.1}}, {{0.035, 1.}}};
+      const DepositBox box{{{-0.035, -0.1}}, {{0.035, 1.}}, {{periodic, false}}};
       Pour             pour(box, 0.6 * d, looseness);
       RandomNumbers    random(2);
       GrainArrays      grains;
@@ -208,11 +208,100 @@ TEST(Deposits, PouredDiscsDoNotOverlap)
       DepositContext c;
       c.lower = box.lower;
       c.upper = box.upper;
-      EXPECT_TRUE(find_overlaps(grains, ::box(c), 1e-9 * d).empty());
+      EXPECT_TRUE(find_overlaps(grains,
+                                periodic ? std::vector<WallSegment>() : ::box(c),
+                                1e-9 * d,
+                                Periodicity{box.lower, {{periodic ? box.width() : 0., 0.}}})
+                    .empty());
       const double packing = inner_packing_fraction(grains);
       EXPECT_GT(packing, looseness > 0. ? 0.72 : 0.80);
       EXPECT_LT(packing, looseness > 0. ? 0.78 : 0.82);
     }
+}
+
+// In a domain that is periodic in x, grains lie across its seam as they do elsewhere.
+TEST(Deposits, PeriodicDomain)
+{
+  auto c        = context(6e-3, 2e-2);
+  c.periodicity = {c.lower, {{6e-3, 0.}}};
+  const std::vector<WallSegment> floor{{c.lower, {{c.upper[0], c.lower[1]}}, {{0., 0.}}, "bottom"}};
+  for (const auto &[name, parameters] :
+       {std::make_pair("lattice", "set Diameter = 2e-4\nset Spacing = 2.05e-4"),
+        std::make_pair("random suspension", "set Area fraction = 0.4\nset Smallest gap = 1e-5"),
+        std::make_pair("settled bed", "set Number of grains = 900\nset Cache folder ="),
+        std::make_pair("settled bed", "set Number of grains = 0\nset Bed height = 4e-3\nset Cache folder =")})
+    {
+      const auto  seeds   = make(name, parameters, c);
+      GrainArrays grains  = arrays(seeds);
+      int         n_over  = 0;
+      double      at_seam = 0., inside = 0.; // area of discs in strips of ten diameters
+      for (const Seed &s : seeds)
+        {
+          ASSERT_GE(s.x, c.lower[0]);
+          ASSERT_LE(s.x, c.upper[0]);
+          n_over += s.x - s.radius < c.lower[0] || s.x + s.radius > c.upper[0];
+          (std::abs(s.x - 0.5 * (c.lower[0] + c.upper[0])) > 2e-3 ? at_seam : inside) += s.radius * s.radius;
+        }
+      EXPECT_TRUE(find_overlaps(grains, floor, 1e-3 * 2e-4, c.periodicity).empty()) << name;
+      if (name != std::string("lattice"))
+        {
+          EXPECT_GT(n_over, 5) << name;
+          EXPECT_NEAR(at_seam / inside, 0.5, 0.04) << name;
+        }
+      if (name == std::string("lattice"))
+        EXPECT_EQ(seeds.size(), 29u * 97u); // 6 mm hold 29 cells, a little wider than asked for
+    }
+}
+
+TEST(Deposits, PeriodicInBothDirections)
+{
+  auto c             = context(2e-3, 3e-3);
+  c.periodicity      = {c.lower, {{2e-3, 3e-3}}};
+  const auto  seeds  = make("random suspension", "set Area fraction = 0.45\nset Smallest gap = 4e-6", c);
+  GrainArrays grains = arrays(seeds);
+  for (double &r : grains.radius)
+    r += 1.9999e-6;
+  EXPECT_TRUE(find_overlaps(grains, {}, 0., c.periodicity).empty());
+  int n_over[2] = {0, 0};
+  for (const Seed &s : seeds)
+    {
+      n_over[0] += s.x - s.radius < c.lower[0] || s.x + s.radius > c.upper[0];
+      n_over[1] += s.y - s.radius < c.lower[1] || s.y + s.radius > c.upper[1];
+    }
+  EXPECT_GT(n_over[0], 0);
+  EXPECT_GT(n_over[1], 0);
+  // A box that is not the whole domain has sides.
+  for (const Seed &s : make("random suspension", "set Box = 1e-3, -2e-3, 2e-3, 1e-3\nset Area fraction = 0.3", c))
+    EXPECT_GE(s.x, c.lower[0] + s.radius);
+  EXPECT_THROW(make("settled bed", "set Number of grains = 10\nset Smallest diameter = 6e-4", c), UserError);
+}
+
+// A periodic bed leaves the mean velocity what it is: it neither falls nor drifts sideways once it has settled.
+TEST(Deposits, PeriodicSettledBedStays)
+{
+  auto c             = context(5e-3, 2e-2);
+  c.periodicity      = {c.lower, {{5e-3, 0.}}};
+  const auto  seeds  = make("settled bed", "set Number of grains = 800\nset Cache folder =", c);
+  GrainArrays grains = arrays(seeds);
+  grains.x0          = grains.x;
+  ContactStepper stepper;
+  stepper.set_walls({{c.lower, {{c.upper[0], c.lower[1]}}, {{0., 0.}}, "bottom"}});
+  stepper.set_periodicity(c.periodicity);
+  stepper.settings().residual_tolerance = 1e-7;
+  stepper.settings().rest_steps         = 0;
+  GrainLoads loads;
+  loads.reset(grains.n());
+  double weight = 0., support = 0.;
+  for (std::size_t k = 0; k < grains.n(); ++k)
+    {
+      loads.fy[k] = -grains.mass[k] * 9.81;
+      weight += grains.mass[k] * 9.81;
+    }
+  for (int step = 0; step < 10; ++step)
+    support += stepper.advance(grains, loads, 1e-3, {{0., -9.81}}).wall_force["bottom"][1] / weight / -10.;
+  EXPECT_NEAR(support, 1., 1e-4);
+  for (std::size_t k = 0; k < grains.n(); ++k)
+    EXPECT_LT(std::hypot(grains.x[k] - grains.x0[k], grains.y[k] - seeds[k].y), 1e-3 * 2e-4);
 }
 
 // Packing is measured exactly enough: a square lattice has pi / 4 (d / a)^2.

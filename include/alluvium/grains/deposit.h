@@ -1,5 +1,6 @@
 #pragma once
 
+#include <alluvium/grains/periodicity.h>
 #include <alluvium/grains/wall.h>
 
 #include <array>
@@ -25,9 +26,10 @@ namespace alluvium::grains
   {
     std::array<double, 2>    lower, upper; // bounding box of the domain [m]
     std::vector<WallSegment> walls;
-    double                   density;   // default grain density [kg/m^3]
-    std::array<double, 2>    gravity;   // [m/s^2]
-    std::string              directory; // of the parameter file: relative paths start here
+    double                   density;          // default grain density [kg/m^3]
+    std::array<double, 2>    gravity;          // [m/s^2]
+    std::string              directory;        // of the parameter file: relative paths start here
+    Periodicity              periodicity = {}; // of the domain
   };
 
   /**

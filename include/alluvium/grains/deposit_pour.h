@@ -13,7 +13,8 @@ namespace alluvium::grains
    * supports (Visscher & Bolsterli, Nature 239, 1972). The best of a few throws, the lowest, is kept, so that the
    * surface grows level. A bed made so is at rest if nothing lay on top of its discs; friction and dynamics have to do
    * the rest. If @p looseness is above 0, that share of the discs stays where it lands and does not roll: too loose to
-   * stand, and so a start from which dynamics finds the packing that friction allows.
+   * stand, and so a start from which dynamics finds the packing that friction allows. A box that is periodic in x has
+   * no sides; it must be wider than four of the largest discs.
    */
   class Pour
   {
@@ -29,11 +30,17 @@ namespace alluvium::grains
       double x, y, r;
     };
     DepositBox                    box;
-    double                        cell, looseness;
+    double                        cell, column_width, looseness;
     int                           n_columns;
     std::vector<std::vector<int>> cells; // discs by cell, row by row upwards; grows with the bed
     std::vector<Disc>             discs;
 
+    /** Disc @p k or its image, whichever is nearer to @p x. */
+    Disc seen_from(double x, int k) const;
+    int  column_of(double x) const;
+    /** The columns from @p first to @p last that there are: call visit(column) once for each. */
+    template <class Visit>
+    void                  visit_columns(int first, int last, const Visit &visit) const;
     std::array<double, 2> roll(double x, double radius) const;
     /** The disc that a falling one lands on, -1 for the floor; @p y is where it starts, and then where it lands. */
     int land(double x, double &y, double radius, int except) const;
