@@ -69,7 +69,7 @@ namespace alluvium::grains
         "Packing fraction",
         packing,
         "If above 0, pour loosely and look for the friction while settling that gives this packing fraction inside "
-        "the bed: about 0.77 (friction 1) to 0.83 (0.03). Beds of more than 4,000 grains, and beds by height, take "
+        "the bed: about 0.78 (friction 1) to 0.83 (0.03). Beds of more than 4,000 grains, and beds by height, take "
         "what "
         "fits one of 2,000, and may be off by 0.01.",
         Double(0., 0.91));
