@@ -92,16 +92,20 @@ namespace alluvium::grains
       }
   }
 
-  void sort_by_colour(std::vector<ContactPair> &pairs, const unsigned int n_colours)
+  std::vector<std::uint32_t> sort_by_colour(std::vector<ContactPair> &pairs, const unsigned int n_colours)
   {
-    std::vector<std::size_t> end(n_colours + 1, 0);
+    std::vector<std::uint32_t> end(n_colours + 1, 0), place(pairs.size());
     for (const ContactPair &p : pairs)
       ++end[p.colour + 1];
     for (unsigned int c = 0; c < n_colours; ++c)
       end[c + 1] += end[c];
     std::vector<ContactPair> sorted(pairs.size());
-    for (const ContactPair &p : pairs)
-      sorted[end[p.colour]++] = p;
+    for (std::size_t k = 0; k < pairs.size(); ++k)
+      {
+        place[k]         = end[pairs[k].colour]++;
+        sorted[place[k]] = pairs[k];
+      }
     pairs.swap(sorted);
+    return place;
   }
 } // namespace alluvium::grains

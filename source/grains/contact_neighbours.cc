@@ -1,6 +1,5 @@
 #include <alluvium/grains/contact_colouring.h>
 #include <alluvium/grains/contact_neighbours.h>
-#include <alluvium/grains/contact_pair_sort.h>
 #include <alluvium/grains/contact_reductions.h>
 
 #include <algorithm>
@@ -10,9 +9,31 @@ namespace alluvium::grains
 {
   namespace
   {
+    /** Whether there is anything to remember. */
+    bool is_known(const ContactPair &p)
+    {
+      return p.rn != 0. || p.bonded;
+    }
+
+    std::size_t n_known(const std::vector<ContactPair> &pairs)
+    {
+      return std::count_if(pairs.begin(), pairs.end(), is_known);
+    }
+
     std::uint64_t key(const std::uint32_t a, const std::uint32_t b)
     {
       return (std::uint64_t(a) << 32) | b;
+    }
+
+    std::uint64_t key(const ContactArchive::Entry &e)
+    {
+      return key(e.a, e.wall ? ~e.b : e.b);
+    }
+
+    /** Grains' entries before walls', each by its key. */
+    bool comes_before(const ContactArchive::Entry &p, const ContactArchive::Entry &q)
+    {
+      return p.wall != q.wall ? q.wall : key(p) < key(q);
     }
   } // namespace
 
@@ -29,14 +50,16 @@ namespace alluvium::grains
     searched    = true;
     carry(grains, pairs.discs, false);
     carry(grains, pairs.walls, true);
-    pending = {};
-    sort_by_colour(pairs.discs, n_colours);
-    sort_by_colour(pairs.walls, n_colours);
+    pending    = {};
+    disc_order = sort_by_colour(pairs.discs, n_colours);
+    wall_order = sort_by_colour(pairs.walls, n_colours);
   }
 
   void ContactNeighbours::keep(ContactCandidates share, const GrainArrays &grains, const std::size_t n_owned)
   {
-    pairs         = std::move(share);
+    pairs = std::move(share);
+    disc_order.clear();
+    wall_order.clear();
     searched_id   = grains.id;
     searched_x    = grains.x;
     searched_y    = grains.y;
@@ -45,36 +68,38 @@ namespace alluvium::grains
 
   void ContactNeighbours::carry(const GrainArrays &grains, std::vector<ContactPair> &found, const bool wall) const
   {
-    std::vector<std::pair<std::uint64_t, const ContactArchive::Entry *>> list;
-    for (const auto &e : pending.entries)
-      if (e.wall == wall)
-        list.emplace_back(key(e.a, wall ? ~e.b : e.b), &e);
-    const auto lower = [](const auto &p, const auto &q) { return p.first < q.first; };
-    if (!std::is_sorted(list.begin(), list.end(), lower))
-      std::sort(list.begin(), list.end(), lower);
-
+    const auto first_wall = std::partition_point(
+      pending.entries.begin(), pending.entries.end(), [](const ContactArchive::Entry &e) { return !e.wall; });
+    const auto begin = wall ? first_wall : pending.entries.begin(), end = wall ? pending.entries.end() : first_wall;
     // Where the pairs come sorted by ids, this is one pass through both lists.
-    auto it = list.begin();
+    auto it = begin;
     for (ContactPair &p : found)
       {
         const std::uint64_t k = key(grains.id[p.i], wall ? p.j : grains.id[p.j]);
-        if (it != list.begin() && std::prev(it)->first >= k)
-          it = std::lower_bound(list.begin(), it, k, [](const auto &e, const std::uint64_t v) { return e.first < v; });
-        while (it != list.end() && it->first < k)
+        if (it != begin && key(*std::prev(it)) >= k)
+          it = std::lower_bound(begin, it, k, [](const auto &e, const std::uint64_t v) { return key(e) < v; });
+        while (it != end && key(*it) < k)
           ++it;
-        if (it != list.end() && it->first == k)
+        if (it != end && key(*it) == k)
           {
-            p.bonded = it->second->bonded;
-            p.rn     = it->second->rn;
-            p.rt     = it->second->rt;
-            p.rr     = it->second->rr;
+            p.bonded = it->bonded;
+            p.rn     = it->rn;
+            p.rt     = it->rt;
+            p.rr     = it->rr;
           }
       }
   }
 
+  void ContactNeighbours::set_pending(ContactArchive archive)
+  {
+    pending = std::move(archive);
+    if (!std::is_sorted(pending.entries.begin(), pending.entries.end(), comes_before))
+      std::sort(pending.entries.begin(), pending.entries.end(), comes_before);
+  }
+
   void ContactNeighbours::forget()
   {
-    pending  = archive();
+    set_pending(archive());
     searched = false;
     pairs    = {};
   }
@@ -133,37 +158,25 @@ namespace alluvium::grains
       }
     ContactArchive result;
     result.dt = warm_dt;
-    struct Place
-    {
-      std::uint32_t i, j, pair;
-    };
-    std::vector<Place> places;
-    for (const bool wall : {false, true})
-      {
-        const std::vector<ContactPair> &list = wall ? pairs.walls : pairs.discs;
-        const auto        known = [&](const ContactPair &p) { return p.i < n_owned && (p.rn != 0. || p.bonded); };
-        const std::size_t n     = std::count_if(list.begin(), list.end(), known);
-        places.clear();
-        places.reserve(n);
-        for (std::uint32_t k = 0; k < list.size(); ++k)
-          if (known(list[k]))
-            places.push_back({list[k].i, list[k].j, k});
-        sort_pairs(places, n_owned);
-        result.entries.reserve(result.entries.size() + n);
-        for (const Place &place : places)
-          {
-            const ContactPair &p = list[place.pair];
-            result.entries.push_back(
-              {searched_id[p.i], wall ? ~p.j : searched_id[p.j], wall, p.bonded, p.rn, p.rt, p.rr});
-          }
-      }
+    result.entries.reserve(n_known(pairs.discs) + n_known(pairs.walls));
+    add_to(result, false);
+    add_to(result, true);
     return result;
+  }
+
+  void ContactNeighbours::add_to(ContactArchive &archive, const bool wall) const
+  {
+    const std::vector<ContactPair>   &list  = wall ? pairs.walls : pairs.discs;
+    const std::vector<std::uint32_t> &order = wall ? wall_order : disc_order;
+    for (std::size_t k = 0; k < list.size(); ++k)
+      if (const ContactPair &p = list[order.empty() ? k : order[k]]; p.i < n_owned && is_known(p))
+        archive.entries.push_back({searched_id[p.i], wall ? ~p.j : searched_id[p.j], wall, p.bonded, p.rn, p.rt, p.rr});
   }
 
   void ContactNeighbours::set_archive(ContactArchive archive)
   {
-    pairs    = {};
-    pending  = std::move(archive);
+    pairs = {};
+    set_pending(std::move(archive));
     warm_dt  = pending.dt;
     searched = false;
   }

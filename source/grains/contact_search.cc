@@ -29,7 +29,8 @@ namespace alluvium::grains
     double distance_to(const WallSegment &w, const double x, const double y)
     {
       const double t = project(w, x, y);
-      return std::hypot(w.a[0] + t * (w.b[0] - w.a[0]) - x, w.a[1] + t * (w.b[1] - w.a[1]) - y);
+      const double dx = w.a[0] + t * (w.b[0] - w.a[0]) - x, dy = w.a[1] + t * (w.b[1] - w.a[1]) - y;
+      return std::sqrt(dx * dx + dy * dy);
     }
 
     /** Grains sorted into the cells of a grid over their bounding box, or over the box where it is periodic. */

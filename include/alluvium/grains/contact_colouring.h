@@ -12,6 +12,6 @@ namespace alluvium::grains
    */
   unsigned int colour_contacts(const GrainArrays &grains, ContactCandidates &candidates);
 
-  /** Sort @p pairs by their @p n_colours colours; those of one colour stay in their order. */
-  void sort_by_colour(std::vector<ContactPair> &pairs, unsigned int n_colours);
+  /** Sort @p pairs by their @p n_colours colours; those of one colour stay in their order. Returns where each went. */
+  std::vector<std::uint32_t> sort_by_colour(std::vector<ContactPair> &pairs, unsigned int n_colours);
 } // namespace alluvium::grains

@@ -57,19 +57,22 @@ namespace alluvium::grains
           p.rn = p.rt = 0.;
     }
 
-    /** Of the pairs whose first grain this rank owns, by grains (i, j). */
+    /** Of the pairs whose first grain this rank owns; by grains (i, j) if they are not a share. */
     ContactArchive archive() const;
     void           set_archive(ContactArchive archive);
 
   private:
-    std::vector<GrainId> searched_id; // the grains of the last search, and where they were
-    std::vector<double>  searched_x, searched_y;
-    std::size_t          n_owned  = 0; // of them
-    double               skin     = 0.;
-    bool                 searched = false;
-    ContactArchive       pending; // impulses that wait for a search
-    double               warm_dt = 0.;
+    std::vector<GrainId>       searched_id; // the grains of the last search, and where they were
+    std::vector<double>        searched_x, searched_y;
+    std::size_t                n_owned  = 0; // of them
+    double                     skin     = 0.;
+    bool                       searched = false;
+    ContactArchive             pending;                // impulses that wait for a search, sorted
+    std::vector<std::uint32_t> disc_order, wall_order; // the pairs by grains (i, j); empty for a share
+    double                     warm_dt = 0.;
 
+    void set_pending(ContactArchive archive);
     void carry(const GrainArrays &grains, std::vector<ContactPair> &found, bool wall) const;
+    void add_to(ContactArchive &archive, bool wall) const;
   };
 } // namespace alluvium::grains

@@ -88,10 +88,12 @@ namespace alluvium::grains
 
   ALLUVIUM_INLINE void store_impulses(Contact *const c, const Pack &rn, const Pack &rt)
   {
+    using Half         = double __attribute__((vector_size(16))); // rn and rt lie side by side
+    const Half pairs[] = {__builtin_shufflevector(rn, rt, 0, 4),
+                          __builtin_shufflevector(rn, rt, 1, 5),
+                          __builtin_shufflevector(rn, rt, 2, 6),
+                          __builtin_shufflevector(rn, rt, 3, 7)};
     for (unsigned int k = 0; k < pack_size; ++k)
-      {
-        c[k].rn = rn[k];
-        c[k].rt = rt[k];
-      }
+      std::memcpy(&c[k].rn, &pairs[k], sizeof pairs[k]);
   }
 } // namespace alluvium::grains
