@@ -170,7 +170,16 @@ namespace alluvium::grains
     const std::vector<std::uint32_t> &order = wall ? wall_order : disc_order;
     for (std::size_t k = 0; k < list.size(); ++k)
       if (const ContactPair &p = list[order.empty() ? k : order[k]]; p.i < n_owned && is_known(p))
-        archive.entries.push_back({searched_id[p.i], wall ? ~p.j : searched_id[p.j], wall, p.bonded, p.rn, p.rt, p.rr});
+        {
+          ContactArchive::Entry &e = archive.entries.emplace_back();
+          e.a                      = searched_id[p.i];
+          e.b                      = wall ? ~p.j : searched_id[p.j];
+          e.wall                   = wall;
+          e.bonded                 = p.bonded;
+          e.rn                     = p.rn;
+          e.rt                     = p.rt;
+          e.rr                     = p.rr;
+        }
   }
 
   void ContactNeighbours::set_archive(ContactArchive archive)

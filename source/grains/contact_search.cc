@@ -28,7 +28,7 @@ namespace alluvium::grains
 
     double distance_to(const WallSegment &w, const double x, const double y)
     {
-      const double t = project(w, x, y);
+      const double t  = project(w, x, y);
       const double dx = w.a[0] + t * (w.b[0] - w.a[0]) - x, dy = w.a[1] + t * (w.b[1] - w.a[1]) - y;
       return std::sqrt(dx * dx + dy * dy);
     }
@@ -332,10 +332,12 @@ namespace alluvium::grains
           }
       found.resize(n_found);
       sort_pairs(found, g.n());
-      std::vector<ContactPair> pairs;
-      pairs.reserve(found.size());
-      for (const Pair &p : found)
-        pairs.push_back({p.i, p.j});
+      std::vector<ContactPair> pairs(found.size());
+      for (std::size_t k = 0; k < found.size(); ++k)
+        {
+          pairs[k].i = found[k].i;
+          pairs[k].j = found[k].j;
+        }
       return pairs;
     }
   } // namespace
