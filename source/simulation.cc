@@ -1,4 +1,5 @@
 #include <alluvium/coupling/coupling.h>
+#include <alluvium/coupling/homogeneous_bed.h>
 #include <alluvium/fluid/boundary_conditions.h>
 #include <alluvium/fluid/line_average.h>
 #include <alluvium/fluid/vans_solver.h>
@@ -137,6 +138,7 @@ namespace alluvium
     void                    write_checkpoint();
     void                    read_checkpoint();
     void                    conclude(const bool interrupted);
+    void                    warn_of_drag_range();
     double                  head() const;
     observers::Snapshot     snapshot() const;
     std::string             checkpoint_folder() const { return folder.file("checkpoint"); }
@@ -308,6 +310,17 @@ namespace alluvium
              std::to_string(coupling.report().n_pieces) + " pieces of grains, void fraction " +
                number(coupling.report().eps_min) + " to " + number(coupling.report().eps_max) + ", rho d^2/eta " +
                number(tau * solver.properties.density) + " s");
+        const coupling::HomogeneousBed bed{grains, solver.properties, coupling::inner_void_fraction(grains)};
+        const coupling::DragRange      range = coupling.drag_law().range();
+        line("drag law",
+             coupling.drag_law_name() + " (void fraction " + number(range.eps_min) + " to " + number(range.eps_max) +
+               ", Reynolds number to " + number(range.re_max) + ")" +
+               (bed.eps < 1.
+                  ? "; homogeneous bed of void fraction " + number(bed.eps) + ": permeability " +
+                      number(bed.permeability(coupling.drag_law())) + " m^2, fluidised at a superficial velocity of " +
+                      number(bed.fluidisation_velocity(coupling.drag_law(), std::hypot(gravity[0], gravity[1]))) +
+                      " m/s"
+                  : ""));
       }
     else
       line("fluid", "left out (Fluid/Model = none): no mesh, no matrices");
@@ -613,6 +626,8 @@ namespace alluvium
     if (counts["linear solves above the tolerance"] > 0)
       summary->warn(std::to_string(static_cast<long>(counts["linear solves above the tolerance"])) +
                     " linear solves of the fluid stopped above the tolerance, at a relative residual below 1e-5.");
+    if (has_fluid)
+      warn_of_drag_range();
     summary->write();
     if (speaks)
       {
@@ -621,6 +636,26 @@ namespace alluvium
           total += name.find(": ") == std::string::npos ? phase.wall : 0.;
         print_timers(std::cout, phases, total);
       }
+  }
+
+
+  void Simulation::Implementation::warn_of_drag_range()
+  {
+    const std::vector<grains::GrainId> ids = coupling.outside_drag_range(grains);
+    if (ids.empty())
+      return;
+    const coupling::DragRange range = coupling.drag_law().range();
+    std::ostringstream        text;
+    text << ids.size() << " of " << grains.n() << " grains were at some time outside the range of the drag law '"
+         << coupling.drag_law_name() << "' (void fraction " << range.eps_min << " to " << range.eps_max
+         << ", Reynolds number " << range.re_min << " to " << range.re_max << "): ids ";
+    const std::size_t n_shown = std::min<std::size_t>(ids.size(), 20);
+    for (std::size_t i = 0; i < n_shown; ++i)
+      text << (i ? ", " : "") << ids[i];
+    text << (n_shown < ids.size() ? ", ..." : "") << '.';
+    summary->warn(text.str());
+    if (speaks)
+      std::cout << "Warning: " << text.str() << std::endl;
   }
 
 

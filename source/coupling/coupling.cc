@@ -154,13 +154,14 @@ namespace alluvium::coupling
   }
 
 
-  void Coupling::find_drag(CouplingState &state) const
+  void Coupling::find_drag(CouplingState &state)
   {
     const auto        &terms = map.terms();
     const DragLaw     &law   = drag_choice.get();
     DragState          s{0., 0., 0., solver->properties.density, solver->properties.viscosity};
     const unsigned int n = space->n_nodes_per_cell();
     state.gamma.resize(terms.n_pieces());
+    drag_means.assign(2 * state.grains.n(), 0.);
     for (unsigned int c = 0; c < space->cells().size(); ++c)
       for (unsigned int k = terms.begin[c]; k < terms.begin[c + 1]; ++k)
         {
@@ -168,9 +169,11 @@ namespace alluvium::coupling
           s.eps                = 0.;
           for (unsigned int v = 0; v < n; ++v)
             s.eps += terms.shape[k].phi[v] * eps.local_element(space->cells()[c].node[v]);
+          s.slip     = std::hypot(state.old[k].u[0] - state.grains.vx[g], state.old[k].u[1] - state.grains.vy[g]);
+          s.diameter = 2. * state.grains.fluid_radius[g];
+          drag_means[2 * g] += terms.shape[k].area * s.eps;
+          drag_means[2 * g + 1] += terms.shape[k].area * s.reynolds();
           s.eps          = std::max(s.eps, eps_floor);
-          s.slip         = std::hypot(state.old[k].u[0] - state.grains.vx[g], state.old[k].u[1] - state.grains.vy[g]);
-          s.diameter     = 2. * state.grains.fluid_radius[g];
           state.gamma[k] = law.gamma(s);
         }
   }
@@ -179,7 +182,8 @@ namespace alluvium::coupling
   void Coupling::collect_forces(const CouplingState &state)
   {
     const auto                   &terms = map.terms();
-    std::vector<double>           sums(5 * state.grains.n(), 0.);
+    constexpr unsigned int        n     = 7;
+    std::vector<double>           sums(n * state.grains.n(), 0.);
     const std::vector<PieceField> lag_of_sweep = evaluate(map, *space, latest_sweep);
     const PieceField              none{};
     for (std::size_t k = 0; k < terms.n_pieces(); ++k)
@@ -192,21 +196,28 @@ namespace alluvium::coupling
         for (unsigned int d = 0; d < dim; ++d)
           {
             const double v = x.a[d] + b * (f.u[d] - lag.u[d]) - x.compliance * f.grad_p[d];
-            sums[5 * g + d] += terms.shape[k].area * (x.gamma * (f.u[d] - v) + x.e[d] - f.grad_p[d]);
-            sums[5 * g + 2 + d] += terms.shape[k].area * v;
+            sums[n * g + d] += terms.shape[k].area * (x.gamma * (f.u[d] - v) + x.e[d] - f.grad_p[d]);
+            sums[n * g + 2 + d] += terms.shape[k].area * v;
           }
-        sums[5 * g + 4] += terms.shape[k].area;
+        sums[n * g + 4] += terms.shape[k].area;
       }
+    for (std::size_t g = 0; g < state.grains.n(); ++g)
+      for (unsigned int i = 0; i < 2; ++i)
+        sums[n * g + 5 + i] = drag_means[2 * g + i];
     map.sum_over_ranks(sums);
     force.resize(state.grains.n());
     predicted.resize(state.grains.n());
+    outside.resize(state.grains.n(), 0);
+    const DragRange range = drag_law().range();
     for (std::size_t g = 0; g < state.grains.n(); ++g)
       {
-        force[g]     = {{sums[5 * g], sums[5 * g + 1]}};
-        predicted[g] = {{sums[5 * g + 2] / sums[5 * g + 4], sums[5 * g + 3] / sums[5 * g + 4]}};
+        force[g]     = {{sums[n * g], sums[n * g + 1]}};
+        predicted[g] = {{sums[n * g + 2] / sums[n * g + 4], sums[n * g + 3] / sums[n * g + 4]}};
         for (unsigned int d = 0; d < dim; ++d)
           last.force_on_grains[d] += force[g][d];
         last.force_scale += std::hypot(force[g][0], force[g][1]);
+        if (!range.contains(sums[n * g + 5] / sums[n * g + 4], sums[n * g + 6] / sums[n * g + 4]))
+          outside[g] = 1;
       }
   }
 
@@ -220,6 +231,16 @@ namespace alluvium::coupling
         sum[1] += loads.drag[g] * (grains.vy[g] - predicted[g][1]);
       }
     last.momentum_not_received = std::hypot(sum[0], sum[1]);
+  }
+
+
+  std::vector<grains::GrainId> Coupling::outside_drag_range(const grains::GrainArrays &grains) const
+  {
+    std::vector<grains::GrainId> ids;
+    for (std::size_t g = 0; g < outside.size(); ++g)
+      if (outside[g])
+        ids.push_back(grains.id[g]);
+    return ids;
   }
 
 

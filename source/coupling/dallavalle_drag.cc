@@ -19,7 +19,7 @@ namespace alluvium::coupling
 
   double DallavalleDrag::gamma(const DragState &s) const
   {
-    const double re      = s.eps * s.density * s.diameter * s.slip / s.viscosity;
+    const double re      = s.reynolds();
     const double bracket = a * std::sqrt(re) + b;
     double       n       = 2.8;
     if (exponent[0] == 'D')

@@ -74,11 +74,14 @@ namespace alluvium::coupling
     /** The velocity v* that the fluid saw, averaged over each grain's pieces [m/s]; replicated. */
     const std::vector<std::array<double, 2>> &predicted_velocity() const { return predicted; }
     const DragLaw                            &drag_law() const { return drag_choice.get(); }
+    const std::string                        &drag_law_name() const { return drag_choice.name(); }
+    /** Ids of the grains whose mean void fraction or Reynolds number has ever been outside the drag law's range. */
+    std::vector<grains::GrainId> outside_drag_range(const grains::GrainArrays &grains) const;
 
     OverlapSettings settings;
 
   private:
-    void find_drag(CouplingState &state) const;
+    void find_drag(CouplingState &state);
     void collect_forces(const CouplingState &state);
 
     const fluid::FluidSpace<dim> *space;
@@ -93,5 +96,7 @@ namespace alluvium::coupling
     fluid::BlockVector                 latest_sweep;
     CouplingReport                     last, of_void_fraction;
     std::vector<std::array<double, 2>> force, predicted;
+    std::vector<double>                drag_means; // sums over each grain's pieces on this rank: A eps, A Re
+    std::vector<std::uint8_t>          outside;    // the drag law's range, at any time
   };
 } // namespace alluvium::coupling

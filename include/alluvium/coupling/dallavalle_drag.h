@@ -24,6 +24,8 @@ namespace alluvium::coupling
 
     void   add_parameters(dealii::ParameterHandler &prm) override;
     double gamma(const DragState &state) const override;
+    /** Di Felice's data. */
+    DragRange range() const override { return {0.4, 1., 0., 1e4}; }
 
   private:
     const double shape, a, b;

@@ -2,6 +2,8 @@
 
 #include <alluvium/utilities/plugin.h>
 
+#include <limits>
+
 namespace alluvium::coupling
 {
   /** What a drag law may know at one piece of a grain. */
@@ -12,6 +14,22 @@ namespace alluvium::coupling
     double diameter;  // the fluid's view of the grain [m]
     double density;   // of the fluid [kg/m^3]
     double viscosity; // of the fluid [Pa s]
+
+    /** Reynolds number of the superficial slip, rho d eps |u - v| / eta. */
+    double reynolds() const { return eps * density * diameter * slip / viscosity; }
+  };
+
+  /** Where a drag law rests on data; outside it is an extrapolation. */
+  struct DragRange
+  {
+    double eps_min = 0., eps_max = 1.;                                    // void fraction
+    double re_min = 0., re_max = std::numeric_limits<double>::infinity(); // DragState::reynolds()
+
+    bool contains(const double eps, const double re) const
+    {
+      const double round_off = 1e-9; // of means over pieces
+      return eps >= eps_min - round_off && eps <= eps_max + round_off && re >= re_min && re <= re_max;
+    }
   };
 
   /**
@@ -24,8 +42,11 @@ namespace alluvium::coupling
     virtual ~DragLaw() = default;
     virtual void add_parameters(dealii::ParameterHandler &) {}
 
-    /** gamma [N s/m^4]. */
+    /** gamma [N s/m^4]: above zero and finite for eps in [0.05, 1] and any slip. */
     virtual double gamma(const DragState &state) const = 0;
+
+    /** By default everywhere. */
+    virtual DragRange range() const { return {}; }
   };
 } // namespace alluvium::coupling
 

@@ -1,0 +1,60 @@
+#include <alluvium/coupling/homogeneous_bed.h>
+#include <alluvium/fluid/vans_assembler.h>
+#include <alluvium/grains/packing.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <boost/math/tools/roots.hpp>
+
+#include <cmath>
+#include <cstdint>
+
+namespace alluvium::coupling
+{
+  double HomogeneousBed::resistance(const DragLaw &law, const double u) const
+  {
+    double sum = 0.;
+    for (const double r : grains.fluid_radius)
+      sum += dealii::numbers::PI * r * r * law.gamma({eps, u, 2. * r, fluid.density, fluid.viscosity});
+    return sum;
+  }
+
+
+  double HomogeneousBed::permeability(const DragLaw &law) const
+  {
+    double volume = 0.;
+    for (const double r : grains.fluid_radius)
+      volume += dealii::numbers::PI * r * r;
+    return fluid.viscosity * eps * eps * volume / ((1. - eps) * resistance(law, 0.));
+  }
+
+
+  double HomogeneousBed::fluidisation_velocity(const DragLaw &law, const double g) const
+  {
+    double weight = 0.;
+    for (std::size_t i = 0; i < grains.n(); ++i)
+      weight +=
+        g * (grains.mass[i] - fluid.density * dealii::numbers::PI * grains.fluid_radius[i] * grains.fluid_radius[i]);
+    if (!(weight > 0.))
+      return 0.;
+    const auto excess = [&](const double u) { return resistance(law, u) * u / eps - weight; };
+    // inertia only adds to the drag of creeping flow: that is where the search starts
+    const double   start        = eps * weight / resistance(law, 0.);
+    std::uintmax_t n_iterations = 200;
+    const auto [low, high]      = boost::math::tools::bracket_and_solve_root(
+      excess, start, 2., true, boost::math::tools::eps_tolerance<double>(48), n_iterations);
+    return eps * 0.5 * (low + high);
+  }
+
+
+  double inner_void_fraction(const grains::GrainArrays &grains)
+  {
+    double solid = 0., contact = 0.;
+    for (std::size_t i = 0; i < grains.n(); ++i)
+      {
+        solid += grains.fluid_radius[i] * grains.fluid_radius[i];
+        contact += grains.radius[i] * grains.radius[i];
+      }
+    return contact > 0. ? 1. - grains::inner_packing_fraction(grains) * solid / contact : 1.;
+  }
+} // namespace alluvium::coupling
