@@ -1,4 +1,5 @@
 #include <alluvium/coupling/coupling.h>
+#include <alluvium/coupling/rotation.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -35,13 +36,22 @@ namespace alluvium::coupling
                       "A grain that has moved by less than this times its diameter keeps its pieces; in a bed at rest "
                       "nothing is cut. At 0 every grain that moved at all is cut.",
                       Patterns::Double(0., 0.1));
-    prm.add_parameter(
-      "Minimal void fraction in the drag",
-      eps_floor,
-      "Drag laws diverge as the void fraction goes to zero, which happens inside grains on fine meshes without a "
-      "filter; below this value they see this value.",
-      Patterns::Double(1e-6, 1.));
+    prm.add_parameter("Added mass coefficient",
+                      added_mass,
+                      "C_m of the added mass C_m rho V (Du/Dt - dv/dt): 0.5 for spheres, 1 for discs; 0: none. Needs a "
+                      "semi-implicit time scheme.",
+                      Patterns::Double(0.));
+    prm.add_parameter("Rotation",
+                      rotation,
+                      "Couple the grains' spin with the fluid: drag sees the velocity of every point of a grain, and "
+                      "turns the grain. Without it the fluid exerts no torque.");
     drag_choice.add_parameters(prm, "Drag law", "disc", "Closure for the drag f = gamma (u - v) per volume of grain.");
+    regularisation_choice.add_parameters(
+      prm,
+      "Drag regularisation",
+      "floor",
+      "What to do where the void fraction is far below that of any packing: inside grains, on fine meshes without a "
+      "filter.");
     scheme_choice.add_parameters(prm,
                                  "Time scheme",
                                  "semi-implicit per grain",
@@ -72,7 +82,13 @@ namespace alluvium::coupling
                      filter_text + "'.");
         settings.filter_radius = x;
       }
-    settings.rule = rule_text == "centroid" ? OverlapSettings::Rule::centroid : OverlapSettings::Rule::moments;
+    check_user(
+      added_mass == 0. || scheme_choice.get().predicts_acceleration(),
+      "Coupling/Added mass coefficient: added mass needs a time scheme that predicts how the grains accelerate, "
+      "such as `semi-implicit per grain`; '" +
+        scheme_choice.name() + "' does not.");
+    settings.keep_arms = rotation;
+    settings.rule      = rule_text == "centroid" ? OverlapSettings::Rule::centroid : OverlapSettings::Rule::moments;
   }
 
 
@@ -115,11 +131,17 @@ namespace alluvium::coupling
                       grains::GrainLoads                   &loads)
   {
     update_void_fraction(grains);
-    CouplingState state{
-      grains, touched, map, dt, {{solver->gravity[0], solver->gravity[1]}}, solver->properties.density, {}, {}, {}};
-    state.old    = evaluate(map, *space, solver->old());
-    state.latest = state.old;
+    dt_of_step = dt;
+    CouplingState state(grains, touched, map, dt);
+    state.gravity       = {{solver->gravity[0], solver->gravity[1]}};
+    state.fluid_density = solver->properties.density;
+    state.old           = evaluate(map, *space, solver->old());
+    state.latest        = state.old;
+    if (rotation)
+      state.old_gradient = state.latest_gradient = velocity_gradients(map, *space, solver->old());
     find_drag(state);
+    if (added_mass > 0.)
+      find_acceleration(state);
 
     // grains that cannot move need no prediction
     const auto        frozen = Registry<TimeScheme>::entries().at("implicit drag").create();
@@ -139,6 +161,8 @@ namespace alluvium::coupling
     for (unsigned int sweep = 1; sweep < scheme.n_sweeps(); ++sweep)
       {
         state.latest = evaluate(map, *space, solver->solution());
+        if (rotation)
+          state.latest_gradient = velocity_gradients(map, *space, solver->solution());
         solver->solve_again([&](auto &) {
           latest_sweep = solver->solution();
           latest_sweep.update_ghost_values();
@@ -148,16 +172,21 @@ namespace alluvium::coupling
         last.n_loose += solver->last_report().loose;
       }
     state.latest = evaluate(map, *space, solver->solution());
+    if (rotation)
+      state.latest_gradient = velocity_gradients(map, *space, solver->solution());
     collect_forces(state);
     loads.reset(grains.n());
     scheme.loads(state, force, loads);
+    if (rotation)
+      find_torques(state, loads);
   }
 
 
   void Coupling::find_drag(CouplingState &state)
   {
-    const auto        &terms = map.terms();
-    const DragLaw     &law   = drag_choice.get();
+    const auto        &terms          = map.terms();
+    const DragLaw     &law            = drag_choice.get();
+    const auto        &regularisation = regularisation_choice.get();
     DragState          s{0., 0., 0., solver->properties.density, solver->properties.viscosity};
     const unsigned int n = space->n_nodes_per_cell();
     state.gamma.resize(terms.n_pieces());
@@ -173,9 +202,75 @@ namespace alluvium::coupling
           s.diameter = 2. * state.grains.fluid_radius[g];
           drag_means[2 * g] += terms.shape[k].area * s.eps;
           drag_means[2 * g + 1] += terms.shape[k].area * s.reynolds();
-          s.eps          = std::max(s.eps, eps_floor);
-          state.gamma[k] = law.gamma(s);
+          state.gamma[k] = regularisation.gamma(law, s);
         }
+    auto &spin = map.terms().spin;
+    spin.resize(map.arms().size());
+    for (std::size_t k = 0; k < spin.size(); ++k)
+      spin[k] = {map.arms()[k].moments, map.arms()[k].arm, state.gamma[k]};
+  }
+
+
+  void Coupling::find_acceleration(CouplingState &state) const
+  {
+    state.added_density = added_mass * solver->properties.density;
+    state.acceleration.resize(state.n_pieces());
+    const auto gradient = velocity_gradients(map, *space, solver->old());
+    for (std::size_t k = 0; k < state.n_pieces(); ++k)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const auto &u            = state.old[k].u;
+          state.acceleration[k][d] = -u[d] / state.dt;
+          if (solver->discretisation.convection)
+            state.acceleration[k][d] += u[0] * gradient[k][d][0] + u[1] * gradient[k][d][1];
+        }
+  }
+
+
+  void Coupling::find_torques(const CouplingState &state, grains::GrainLoads &loads)
+  {
+    GrainTorques torques = grain_torques(state);
+    loads.torque         = std::move(torques.torque);
+    loads.spin_drag      = std::move(torques.spin_drag);
+
+    // what the fluid saw
+    const auto &exchange     = map.terms().exchange;
+    const auto  lag          = evaluate(map, *space, latest_sweep);
+    const auto  lag_gradient = velocity_gradients(map, *space, latest_sweep);
+    double      sum          = 0.;
+    for (std::size_t k = 0; k < state.n_pieces(); ++k)
+      {
+        const auto        &x = exchange[k];
+        const unsigned int g = map.grain()[k];
+        const double       b = x.gamma * x.compliance, area = map.terms().shape[k].area;
+        const auto         f   = piece_force(state, k, lag).force;
+        const auto        &arm = map.arms()[k].arm;
+        const auto        &c   = map.arms()[k].moments;
+        sum += area * ((state.grains.x[g] + arm[0]) * f[1] - (state.grains.y[g] + arm[1]) * f[0]);
+        sum += (1. - b) * couple(state, k, state.latest_gradient[k]) - area * state.gamma[k] * x.omega * (c[0] + c[2]);
+        if (x.reference)
+          sum += b * couple(state, k, x.reference == 1 ? state.old_gradient[k] : lag_gradient[k]);
+      }
+    last.torque_on_grains = Utilities::MPI::sum(sum, space->communicator());
+  }
+
+
+  Coupling::PieceForce Coupling::piece_force(const CouplingState           &state,
+                                             const std::size_t              k,
+                                             const std::vector<PieceField> &lag_of_sweep) const
+  {
+    const auto       &x = map.terms().exchange[k];
+    const auto       &f = state.latest[k];
+    const PieceField  none{};
+    const PieceField &lag = x.reference == 0 ? none : x.reference == 1 ? state.old[k] : lag_of_sweep[k];
+    const double      b   = x.gamma * x.compliance;
+    PieceForce        result;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        result.velocity[d] = x.a[d] + b * (f.u[d] - lag.u[d]) - x.compliance * f.grad_p[d];
+        result.force[d]    = x.gamma * (f.u[d] - result.velocity[d]) + x.e[d] - f.grad_p[d];
+      }
+    return result;
   }
 
 
@@ -185,19 +280,14 @@ namespace alluvium::coupling
     constexpr unsigned int        n     = 7;
     std::vector<double>           sums(n * state.grains.n(), 0.);
     const std::vector<PieceField> lag_of_sweep = evaluate(map, *space, latest_sweep);
-    const PieceField              none{};
     for (std::size_t k = 0; k < terms.n_pieces(); ++k)
       {
-        const auto        &x   = terms.exchange[k];
-        const auto        &f   = state.latest[k];
-        const PieceField  &lag = x.reference == 0 ? none : x.reference == 1 ? state.old[k] : lag_of_sweep[k];
-        const double       b   = x.gamma * x.compliance;
-        const unsigned int g   = map.grain()[k];
+        const PieceForce   f = piece_force(state, k, lag_of_sweep);
+        const unsigned int g = map.grain()[k];
         for (unsigned int d = 0; d < dim; ++d)
           {
-            const double v = x.a[d] + b * (f.u[d] - lag.u[d]) - x.compliance * f.grad_p[d];
-            sums[n * g + d] += terms.shape[k].area * (x.gamma * (f.u[d] - v) + x.e[d] - f.grad_p[d]);
-            sums[n * g + 2 + d] += terms.shape[k].area * v;
+            sums[n * g + d] += terms.shape[k].area * f.force[d];
+            sums[n * g + 2 + d] += terms.shape[k].area * f.velocity[d];
           }
         sums[n * g + 4] += terms.shape[k].area;
       }
@@ -227,8 +317,9 @@ namespace alluvium::coupling
     std::array<double, 2> sum{};
     for (std::size_t g = 0; g < grains.n(); ++g)
       {
-        sum[0] += loads.drag[g] * (grains.vx[g] - predicted[g][0]);
-        sum[1] += loads.drag[g] * (grains.vy[g] - predicted[g][1]);
+        const double coefficient = loads.drag[g] + loads.mass_added_to(g) / dt_of_step;
+        sum[0] += coefficient * (grains.vx[g] - predicted[g][0]);
+        sum[1] += coefficient * (grains.vy[g] - predicted[g][1]);
       }
     last.momentum_not_received = std::hypot(sum[0], sum[1]);
   }
@@ -247,5 +338,7 @@ namespace alluvium::coupling
   void Coupling::audit()
   {
     last.force_on_fluid = solver->interphase_force();
+    if (rotation)
+      last.torque_on_fluid = solver->interphase_torque();
   }
 } // namespace alluvium::coupling

@@ -7,10 +7,11 @@ namespace alluvium::coupling
 {
   namespace
   {
-    std::array<double, 2> grain_velocity(const CouplingState &state, const std::size_t k)
+    std::array<double, 2> solid_velocity(const CouplingState &state, const std::size_t k)
     {
-      const unsigned int g = state.map.grain()[k];
-      return {{state.grains.vx[g], state.grains.vy[g]}};
+      const unsigned int          g    = state.map.grain()[k];
+      const std::array<double, 2> spin = state.spin_velocity(k);
+      return {{state.grains.vx[g] + spin[0], state.grains.vy[g] + spin[1]}};
     }
 
     class Explicit : public TimeScheme
@@ -22,8 +23,9 @@ namespace alluvium::coupling
       {
         for (std::size_t k = 0; k < exchange.size(); ++k)
           {
-            exchange[k]   = {};
-            exchange[k].a = grain_velocity(state, k);
+            exchange[k]       = {};
+            exchange[k].a     = solid_velocity(state, k);
+            exchange[k].omega = state.grains.omega[state.map.grain()[k]];
             for (unsigned int d = 0; d < 2; ++d)
               exchange[k].e[d] = state.gamma[k] * (state.old[k].u[d] - exchange[k].a[d]);
           }
@@ -40,8 +42,10 @@ namespace alluvium::coupling
         for (std::size_t k = 0; k < exchange.size(); ++k)
           {
             exchange[k]       = {};
-            exchange[k].gamma = state.gamma[k];
-            exchange[k].a     = grain_velocity(state, k);
+            exchange[k].gamma = state.coefficient(k); // with added mass only where grains are fixed
+            exchange[k].a     = solid_velocity(state, k);
+            exchange[k].omega = state.grains.omega[state.map.grain()[k]];
+            exchange[k].e     = state.added_force(k);
           }
       }
     };

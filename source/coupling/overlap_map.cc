@@ -150,8 +150,8 @@ namespace alluvium::coupling
       radius[g] = settings.filter_radius > 0. ? 2. * settings.filter_radius * grains.radius[g] : grains.fluid_radius[g];
 
     std::vector<std::uint8_t> moved(n, 1);
-    if (position.x.size() == n && cut_with.rule == settings.rule && position.radius == radius &&
-        position.fluid_radius == grains.fluid_radius)
+    if (position.x.size() == n && cut_with.rule == settings.rule && cut_with.keep_arms == settings.keep_arms &&
+        position.radius == radius && position.fluid_radius == grains.fluid_radius)
       for (std::size_t g = 0; g < n; ++g)
         moved[g] = std::max(std::abs(grains.x[g] - position.x[g]), std::abs(grains.y[g] - position.y[g])) >
                    2. * settings.tolerance * grains.radius[g];
@@ -194,12 +194,14 @@ namespace alluvium::coupling
     const fluid::InterphaseTerms<dim> old_pieces = std::move(pieces);
     const std::vector<unsigned int>   old_grain  = std::move(grain_of_piece);
     const std::vector<double>         old_area   = std::move(raw_area);
+    const std::vector<PieceArm>       old_arm    = std::move(arm_of_piece);
     pieces.begin.assign(1, 0);
     pieces.shape.clear();
     pieces.shape.reserve(old_pieces.shape.size());
     grain_of_piece.clear();
     grain_of_piece.reserve(old_grain.size());
     raw_area.clear();
+    arm_of_piece.clear();
     raw_area.reserve(old_area.size());
     std::vector<unsigned int> candidates;
     for (unsigned int c = 0; c < polygons.size(); ++c)
@@ -216,7 +218,7 @@ namespace alluvium::coupling
                 const geometry::Overlap o =
                   geometry::overlap({{{images.x[k], images.y[k]}}, position.radius[g]}, polygon);
                 if (o.area > 0.)
-                  add_piece(c, g, o, settings.rule == OverlapSettings::Rule::moments);
+                  add_piece(c, g, o, settings);
               }
           }
         else
@@ -225,6 +227,8 @@ namespace alluvium::coupling
             pieces.shape.insert(pieces.shape.end(), old_pieces.shape.begin() + from, old_pieces.shape.begin() + to);
             grain_of_piece.insert(grain_of_piece.end(), old_grain.begin() + from, old_grain.begin() + to);
             raw_area.insert(raw_area.end(), old_area.begin() + from, old_area.begin() + to);
+            if (settings.keep_arms)
+              arm_of_piece.insert(arm_of_piece.end(), old_arm.begin() + from, old_arm.begin() + to);
           }
         pieces.begin.push_back(pieces.shape.size());
       }
@@ -250,9 +254,10 @@ namespace alluvium::coupling
   void OverlapMap::add_piece(const unsigned int       cell,
                              const unsigned int       grain,
                              const geometry::Overlap &o,
-                             const bool               moments)
+                             const OverlapSettings   &settings)
   {
-    const fluid::CellData<dim> &data = space->cells()[cell];
+    const bool                  moments = settings.rule == OverlapSettings::Rule::moments;
+    const fluid::CellData<dim> &data    = space->cells()[cell];
     fluid::PieceShape<dim>      s{};
     s.area           = o.area;
     const auto &v    = data.vertex;
@@ -313,6 +318,9 @@ namespace alluvium::coupling
     pieces.shape.push_back(s);
     grain_of_piece.push_back(grain);
     raw_area.push_back(o.area);
+    if (settings.keep_arms)
+      arm_of_piece.push_back(
+        {o.arm, {{o.second_moments[0] / o.area, o.second_moments[1] / o.area, o.second_moments[2] / o.area}}});
   }
 
 

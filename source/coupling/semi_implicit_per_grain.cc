@@ -1,6 +1,8 @@
-#include <alluvium/coupling/time_scheme.h>
+#include <alluvium/coupling/rotation.h>
 
 #include <deal.II/base/parameter_handler.h>
+
+#include <cmath>
 
 namespace alluvium::coupling
 {
@@ -12,7 +14,9 @@ namespace alluvium::coupling
      * + G) v*_k = w + 1/2 c_k (s_k^{n+1} - s_k^{lag}),          c_k = 1 / (rho_p/dt + gamma_k), which is exactly rigid
      * once lag and new agree. Sweep 1 lags with the old fields on the new pieces, sweep 2 with sweep 1, and so on;
      * grains that touched others in the last step keep the old lag, to which their contact forces belong. Even numbers
-     * of sweeps are stable for every dt, odd ones are not.
+     * of sweeps are stable for every dt, odd ones are not. With added mass, gamma is CouplingState::coefficient() and s
+     * has CouplingState::added_force(); where spin is coupled, w is a field w + omega* x r, with omega*
+     * = (I omega^n/dt + T(lag)) / (I/dt + J) from GrainTorques, or omega^n for grains that touched others.
      */
     class SemiImplicitPerGrain : public TimeScheme
     {
@@ -27,6 +31,8 @@ namespace alluvium::coupling
 
       unsigned int n_sweeps() const override { return 2 * n_pairs; }
 
+      bool predicts_acceleration() const override { return true; }
+
       void exchange_terms(const CouplingState                  &state,
                           const unsigned int                    sweep,
                           std::vector<fluid::PieceExchange<2>> &exchange) const override
@@ -35,22 +41,26 @@ namespace alluvium::coupling
         const auto  lag    = [&](const std::size_t k) -> const PieceField  &{
           return sweep == 0 || state.touched[state.map.grain()[k]] ? state.old[k] : state.latest[k];
         };
-        const std::vector<double> sums = sum_over_pieces(state, lag);
+        const std::vector<double> sums  = sum_over_pieces(state, lag);
+        const std::vector<double> omega = predicted_spin(state, sweep);
         for (std::size_t k = 0; k < exchange.size(); ++k)
           {
             const unsigned int      g       = state.map.grain()[k];
             const double            inertia = grains.mass[g] / state.dt, denominator = inertia + sums[3 * g + 2];
             const auto              weight = state.reduced_weight(g);
+            const auto              spin   = state.spin_velocity(k, omega[g]);
             const PieceField       &f      = lag(k);
             fluid::PieceExchange<2> x;
-            x.gamma      = state.gamma[k];
-            x.compliance = 0.5 / (inertia / state.volume(g) + state.gamma[k]);
-            x.a          = {{(inertia * grains.vx[g] + weight[0] + grains.fcx[g] + sums[3 * g]) / denominator +
-                               x.compliance * f.grad_p[0],
-                             (inertia * grains.vy[g] + weight[1] + grains.fcy[g] + sums[3 * g + 1]) / denominator +
-                               x.compliance * f.grad_p[1]}};
-            x.reference  = &f == &state.old[k] ? 1 : 2;
-            exchange[k]  = x;
+            x.gamma      = state.coefficient(k);
+            x.compliance = 0.5 / (inertia / state.volume(g) + x.gamma);
+            x.a         = {{(inertia * grains.vx[g] + weight[0] + grains.fcx[g] + sums[3 * g]) / denominator + spin[0] +
+                              x.compliance * f.grad_p[0],
+                            (inertia * grains.vy[g] + weight[1] + grains.fcy[g] + sums[3 * g + 1]) / denominator + spin[1] +
+                              x.compliance * f.grad_p[1]}};
+            x.e         = state.added_force(k);
+            x.omega     = omega[g];
+            x.reference = &f == &state.old[k] ? 1 : 2;
+            exchange[k] = x;
           }
       }
 
@@ -67,22 +77,52 @@ namespace alluvium::coupling
             loads.fy[g]       = weight[1] + sums[3 * g + 1];
             loads.drag[g]     = sums[3 * g + 2];
           }
+        if (state.added_density == 0.)
+          return;
+        // the grain's own acceleration is not a force but mass: C_m rho V (v^n - v) / dt is in sums and drag
+        loads.added_mass.resize(state.grains.n());
+        for (std::size_t g = 0; g < state.grains.n(); ++g)
+          {
+            const double mass   = state.added_density * state.volume(g);
+            loads.added_mass[g] = mass;
+            loads.fx[g] -= mass / state.dt * state.grains.vx[g];
+            loads.fy[g] -= mass / state.dt * state.grains.vy[g];
+            loads.drag[g] -= mass / state.dt;
+          }
       }
 
     private:
-      /** S_x, S_y [N/m] and G [N s/m^2] of every grain, one after the other. */
+      static std::vector<double> predicted_spin(const CouplingState &state, const unsigned int sweep)
+      {
+        std::vector<double> omega = state.grains.omega;
+        if (!state.couples_spin())
+          return omega;
+        const GrainTorques torques = grain_torques(state, std::vector<std::uint8_t>(state.n_pieces(), sweep == 0));
+        for (std::size_t g = 0; g < omega.size(); ++g)
+          if (!state.touched[g] && !std::isinf(state.grains.mass[g]))
+            {
+              const double inertia = grains::disc_inertia(state.grains.mass[g], state.grains.radius[g]) / state.dt;
+              omega[g]             = (inertia * omega[g] + torques.torque[g]) / (inertia + torques.spin_drag[g]);
+            }
+        return omega;
+      }
+
+      /** S_x, S_y [N/m], what spin takes from them included, and G [N s/m^2] of every grain, one after the other. */
       template <typename Field>
       static std::vector<double> sum_over_pieces(const CouplingState &state, const Field &field)
       {
         std::vector<double> sums(3 * state.grains.n(), 0.);
         for (std::size_t k = 0; k < state.n_pieces(); ++k)
           {
-            const unsigned int g    = state.map.grain()[k];
-            const double       area = state.map.terms().shape[k].area;
-            const PieceField  &f    = field(k);
+            const unsigned int g     = state.map.grain()[k];
+            const double       area  = state.map.terms().shape[k].area;
+            const double       gamma = state.coefficient(k);
+            const PieceField  &f     = field(k);
+            const auto         spin  = state.spin_velocity(k);
+            const auto         added = state.added_force(k);
             for (unsigned int d = 0; d < 2; ++d)
-              sums[3 * g + d] += area * (state.gamma[k] * f.u[d] - f.grad_p[d]);
-            sums[3 * g + 2] += area * state.gamma[k];
+              sums[3 * g + d] += area * (gamma * (f.u[d] - spin[d]) + added[d] - f.grad_p[d]);
+            sums[3 * g + 2] += area * gamma;
           }
         state.map.sum_over_ranks(sums);
         return sums;

@@ -13,6 +13,8 @@ namespace alluvium::coupling
     class SemiImplicitPerPiece : public TimeScheme
     {
     public:
+      bool predicts_acceleration() const override { return true; }
+
       void exchange_terms(const CouplingState &state,
                           const unsigned int,
                           std::vector<fluid::PieceExchange<2>> &exchange) const override
@@ -24,12 +26,17 @@ namespace alluvium::coupling
             const double       volume  = state.volume(g);
             const double       inertia = grains.mass[g] / (volume * state.dt);
             const auto         weight  = state.reduced_weight(g);
-            exchange[k]                = {};
-            exchange[k].gamma          = state.gamma[k];
-            exchange[k].compliance     = 1. / (inertia + state.gamma[k]);
-            exchange[k].a              = {
-                           {exchange[k].compliance * (inertia * grains.vx[g] + (weight[0] + grains.fcx[g]) / volume),
-                            exchange[k].compliance * (inertia * grains.vy[g] + (weight[1] + grains.fcy[g]) / volume)}};
+            const auto         spin    = state.spin_velocity(k);
+            const auto         added   = state.added_force(k);
+            auto              &x       = exchange[k];
+            x                          = {};
+            x.gamma                    = state.coefficient(k);
+            x.compliance               = 1. / (inertia + x.gamma);
+            x.omega                    = x.compliance * inertia * grains.omega[g];
+            x.e                        = added;
+            x.a                        = {
+                                     {x.compliance * (inertia * (grains.vx[g] + spin[0]) + (weight[0] + grains.fcx[g]) / volume + added[0]),
+                                      x.compliance * (inertia * (grains.vy[g] + spin[1]) + (weight[1] + grains.fcy[g]) / volume + added[1])}};
           }
       }
     };

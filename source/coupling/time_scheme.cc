@@ -47,6 +47,50 @@ namespace alluvium::coupling
   }
 
 
+  std::vector<VelocityGradient>
+  velocity_gradients(const OverlapMap &map, const fluid::FluidSpace<2> &space, const fluid::BlockVector &field)
+  {
+    const auto                   &terms = map.terms();
+    std::vector<VelocityGradient> result(terms.n_pieces());
+    for (unsigned int c = 0; c < space.cells().size(); ++c)
+      for (unsigned int k = terms.begin[c]; k < terms.begin[c + 1]; ++k)
+        for (unsigned int v = 0; v < space.n_nodes_per_cell(); ++v)
+          for (unsigned int i = 0; i < 2; ++i)
+            {
+              const double u = field.block(0).local_element(space.cells()[c].velocity[v][i]);
+              for (unsigned int d = 0; d < 2; ++d)
+                result[k][i][d] += u * terms.shape[k].grad[v][d];
+            }
+    return result;
+  }
+
+
+  std::array<double, 2> CouplingState::added_force(const std::size_t k) const
+  {
+    if (added_density == 0.)
+      return {{0., 0.}};
+    const unsigned int          g    = map.grain()[k];
+    const std::array<double, 2> spin = spin_velocity(k);
+    return {{added_density * (acceleration[k][0] + (grains.vx[g] + spin[0]) / dt),
+             added_density * (acceleration[k][1] + (grains.vy[g] + spin[1]) / dt)}};
+  }
+
+
+  std::array<double, 2> CouplingState::spin_velocity(const std::size_t k, const double omega) const
+  {
+    if (!couples_spin())
+      return {{0., 0.}};
+    const auto &arm = map.arms()[k].arm;
+    return {{-omega * arm[1], omega * arm[0]}};
+  }
+
+
+  std::array<double, 2> CouplingState::spin_velocity(const std::size_t k) const
+  {
+    return spin_velocity(k, grains.omega[map.grain()[k]]);
+  }
+
+
   double CouplingState::volume(const std::size_t g) const
   {
     return dealii::numbers::PI * grains.fluid_radius[g] * grains.fluid_radius[g];

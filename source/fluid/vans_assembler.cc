@@ -143,9 +143,39 @@ namespace alluvium::fluid
               }
             else
               add_shape(s, f, L);
+            if constexpr (dim == 2)
+              if (!problem.solid->spin.empty())
+                add_spin(k, f.drag, L);
           }
         if (full_shape)
           add_shape(*full_shape, full, L);
+      }
+
+      /**
+       * Drag around the centroid of piece @p k, so that it sees the fluid turn: gamma integral of (x - c).grad phi_i
+       * (x - c).grad phi_j. Lumping would also hold back a turning fluid, as if the grain were as large as the cell:
+       * that part of it, the projection on rotations of the cell's nodes, is taken out.
+       */
+      void add_spin(const unsigned int k, const double drag, LocalMatrix &L) const
+      {
+        const PieceShape<dim> &s     = problem.solid->shape[k];
+        const PieceSpin       &spin  = problem.solid->spin[k];
+        const auto             arms  = spin_arms(s, spin);
+        const auto            &x     = problem.solid->exchange[k];
+        const double           gamma = s.area * spin.gamma * (1. - x.gamma * x.compliance);
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            for (unsigned int c = 0; c < dim; ++c)
+              L[i * (dim + 1) + c][j * (dim + 1) + c] +=
+                gamma * (arms[i][0] * s.grad[j][0] + arms[i][1] * s.grad[j][1]);
+        if (!problem.discretisation.lumped_drag)
+          return;
+        const auto turn = rotation_of_nodes(s);
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int c = 0; c < dim; ++c)
+            for (unsigned int j = 0; j < n; ++j)
+              for (unsigned int d = 0; d < dim; ++d)
+                L[i * (dim + 1) + c][j * (dim + 1) + d] -= drag * turn[i][c] * turn[j][d];
       }
 
       /** Add the terms known from the mesh: u^n/dt, body force, mass source. */
@@ -212,9 +242,46 @@ namespace alluvium::fluid
               }
             else
               add_known(s, f, r);
+            if constexpr (dim == 2)
+              if (!problem.solid->spin.empty())
+                known_spin(k, r);
           }
         if (full_shape)
           add_known(*full_shape, full, r);
+      }
+
+      void known_spin(const unsigned int k, LocalVector &r) const
+      {
+        const PieceShape<dim>    &s     = problem.solid->shape[k];
+        const PieceExchange<dim> &x     = problem.solid->exchange[k];
+        const PieceSpin          &spin  = problem.solid->spin[k];
+        const auto                arms  = spin_arms(s, spin);
+        const double              gamma = s.area * spin.gamma, b = x.gamma * x.compliance;
+        const Vector             *reference = b == 0. ? nullptr : problem.reference[x.reference];
+        // the known part of the solid's velocity gradient
+        std::array<std::array<double, 2>, 2> known = {{{{0., -x.omega}}, {{x.omega, 0.}}}};
+        if (reference)
+          for (unsigned int v = 0; v < n; ++v)
+            for (unsigned int c = 0; c < 2; ++c)
+              for (unsigned int d = 0; d < 2; ++d)
+                known[c][d] -= b * reference->local_element(cell->velocity[v][c]) * s.grad[v][d];
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            for (unsigned int c = 0; c < 2; ++c)
+              r[i * (dim + 1) + c] += gamma * (arms[i][0] * known[c][0] + arms[i][1] * known[c][1]);
+            // a disc that turns displaces nothing: exactly, if the centroids' velocities are left out
+            r[i * (dim + 1) + dim] -= s.area * x.omega * (s.grad[i][1] * spin.arm[0] - s.grad[i][0] * spin.arm[1]);
+          }
+        if (!problem.discretisation.lumped_drag || !reference)
+          return;
+        const auto turn  = rotation_of_nodes(s);
+        double     omega = 0.;
+        for (unsigned int v = 0; v < n; ++v)
+          for (unsigned int d = 0; d < dim; ++d)
+            omega += turn[v][d] * reference->local_element(cell->velocity[v][d]);
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            r[i * (dim + 1) + d] += s.area * x.gamma * b * turn[i][d] * omega;
       }
 
       /** Sums over the rows of each equation of the squares of its largest terms: grad p, and eps u.grad q. */
@@ -256,6 +323,40 @@ namespace alluvium::fluid
       }
 
     private:
+      /** The second moments of a piece times the gradient of each shape function. */
+      std::array<std::array<double, dim>, n> spin_arms(const PieceShape<dim> &s, const PieceSpin &spin) const
+      {
+        std::array<std::array<double, dim>, n> arms;
+        for (unsigned int v = 0; v < n; ++v)
+          arms[v] = {{spin.moments[0] * s.grad[v][0] + spin.moments[1] * s.grad[v][1],
+                      spin.moments[1] * s.grad[v][0] + spin.moments[2] * s.grad[v][1]}};
+        return arms;
+      }
+
+      /**
+       * phi_i ez x (x_i - c) over the root of sum phi_i |x_i - c|^2: nodal velocities are projected on a rotation about
+       * the piece's centroid c by its inner product with them.
+       */
+      std::array<std::array<double, dim>, n> rotation_of_nodes(const PieceShape<dim> &s) const
+      {
+        Point<dim> centroid;
+        for (unsigned int v = 0; v < n; ++v)
+          centroid += s.phi[v] * cell->vertex[v];
+        std::array<std::array<double, dim>, n> turn;
+        double                                 square = 0.;
+        for (unsigned int v = 0; v < n; ++v)
+          {
+            const Tensor<1, dim> arm = cell->vertex[v] - centroid;
+            square += s.phi[v] * arm.norm_square();
+            turn[v] = {{-s.phi[v] * arm[1], s.phi[v] * arm[0]}};
+          }
+        const double factor = square > 1e-20 * cell->measure ? 1. / std::sqrt(square) : 0.;
+        for (auto &t : turn)
+          for (double &component : t)
+            component *= factor;
+        return turn;
+      }
+
       /** What a piece's shape is multiplied by in the matrix. */
       struct PieceFactors
       {
@@ -589,38 +690,72 @@ namespace alluvium::fluid
   }
 
 
+  namespace
+  {
+    /** Call @p action(point, force) with what the pieces put into the momentum equations of each cell's nodes. */
+    template <int dim, typename Action>
+    void for_each_interphase_force(const FluidSpace<dim>  &space,
+                                   const VansProblem<dim> &problem,
+                                   const BlockVector      &solution,
+                                   const Action           &action)
+    {
+      with_kernel<dim>(space, problem, [&](auto kernel) {
+        using K                   = decltype(kernel);
+        constexpr unsigned int  n = K::n_local;
+        typename K::LocalMatrix L;
+        typename K::LocalVector r;
+        for (unsigned int i = 0; i < space.cells().size(); ++i)
+          {
+            const CellData<dim> &cell = space.cells()[i];
+            kernel.reinit(i);
+            for (auto &row : L)
+              row.fill(0.);
+            r.fill(0.);
+            kernel.add_pieces(L);
+            kernel.known_pieces(r);
+            const typename K::LocalVector x = kernel.values(solution);
+            for (unsigned int v = 0; v < n / (dim + 1); ++v)
+              {
+                std::array<double, dim> force;
+                for (unsigned int d = 0; d < dim; ++d)
+                  {
+                    const unsigned int row = v * (dim + 1) + d;
+                    force[d]               = r[row];
+                    for (unsigned int c = 0; c < n; ++c)
+                      force[d] -= L[row][c] * x[c];
+                  }
+                action(cell.vertex[v], force);
+              }
+          }
+      });
+    }
+  } // namespace
+
+
   template <int dim>
   std::array<double, dim> VansAssembler<dim>::interphase_force(const VansProblem<dim> &problem,
                                                                const BlockVector      &solution) const
   {
     std::array<double, dim> sum{};
-    with_kernel<dim>(*space, problem, [&](auto kernel) {
-      using K                   = decltype(kernel);
-      constexpr unsigned int  n = K::n_local;
-      typename K::LocalMatrix L;
-      typename K::LocalVector r;
-      for (unsigned int i = 0; i < space->cells().size(); ++i)
-        {
-          kernel.reinit(i);
-          for (auto &row : L)
-            row.fill(0.);
-          r.fill(0.);
-          kernel.add_pieces(L);
-          kernel.known_pieces(r);
-          const typename K::LocalVector x = kernel.values(solution);
-          for (unsigned int v = 0; v < n / (dim + 1); ++v)
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                const unsigned int row = v * (dim + 1) + d;
-                sum[d] += r[row];
-                for (unsigned int c = 0; c < n; ++c)
-                  sum[d] -= L[row][c] * x[c];
-              }
-        }
+    for_each_interphase_force(*space, problem, solution, [&](const Point<dim> &, const std::array<double, dim> &force) {
+      for (unsigned int d = 0; d < dim; ++d)
+        sum[d] += force[d];
     });
     for (double &s : sum)
       s = Utilities::MPI::sum(s, space->communicator());
     return sum;
+  }
+
+
+  template <int dim>
+  double VansAssembler<dim>::interphase_torque(const VansProblem<dim> &problem, const BlockVector &solution) const
+  {
+    double sum = 0.;
+    for_each_interphase_force(
+      *space, problem, solution, [&](const Point<dim> &x, const std::array<double, dim> &force) {
+        sum += x[0] * force[1] - x[1] * force[0];
+      });
+    return Utilities::MPI::sum(sum, space->communicator());
   }
 
 

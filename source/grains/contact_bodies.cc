@@ -39,12 +39,22 @@ namespace alluvium::grains
         d       = {grains.vx[k], grains.vy[k], grains.radius[k] * grains.omega[k]};
         if (std::isinf(grains.mass[k]))
           continue;
-        const double m = grains.mass[k], m_e = m + h * loads.drag[k];
+        const double m = grains.mass[k] + loads.mass_added_to(k), m_e = m + h * loads.drag[k];
         const double inverse = 1. / m_e;
         d.x                  = (m * d.x + h * loads.fx[k]) * inverse;
         d.y                  = (m * d.y + h * loads.fy[k]) * inverse;
         d.inverse_mass       = inverse;
-        d.inverse_rotation   = rotation ? 1. / disc_inertia(m, 1.) : 0.;
+        d.inverse_rotation   = 0.;
+        if (!rotation)
+          continue;
+        const double inertia = disc_inertia(grains.mass[k], 1.); // for s = r omega
+        d.inverse_rotation   = 1. / inertia;
+        if (!loads.torque.empty())
+          {
+            const double r     = grains.radius[k];
+            d.inverse_rotation = 1. / (inertia + h * loads.spin_drag[k] / (r * r));
+            d.s                = (inertia * d.s + h * loads.torque[k] / r) * d.inverse_rotation;
+          }
       }
   }
 

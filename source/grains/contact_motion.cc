@@ -52,7 +52,10 @@ namespace alluvium::grains
         grains.vx[k]     = bodies.free[k].x + bodies.free[k].inverse_mass * p.x;
         grains.vy[k]     = bodies.free[k].y + bodies.free[k].inverse_mass * p.y;
         if (rotation)
-          grains.omega[k] += bodies.free[k].inverse_rotation * p.spin / grains.radius[k];
+          // the first difference is the fluid's torque, and exactly zero without one
+          grains.omega[k] +=
+            (bodies.free[k].s - grains.radius[k] * grains.omega[k] + bodies.free[k].inverse_rotation * p.spin) /
+            grains.radius[k];
         grains.x[k] += h * grains.vx[k];
         grains.y[k] += h * grains.vy[k];
         grains.fcx[k] += p.x;

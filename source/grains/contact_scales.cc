@@ -33,7 +33,7 @@ namespace alluvium::grains
     double speed = 0.;
     for (std::size_t k = 0; k < grains.n(); ++k)
       {
-        const double m  = grains.mass[k];
+        const double m  = grains.mass[k] + loads.mass_added_to(k);
         double       vx = grains.vx[k], vy = grains.vy[k];
         speed = std::max(speed, vx * vx + vy * vy);
         if (!std::isinf(m))

@@ -85,6 +85,13 @@ namespace alluvium::grains
         loads.fy[k]   = all_loads.fy[partition.grains[k]];
         loads.drag[k] = all_loads.drag[partition.grains[k]];
       }
+    for (auto v : {&GrainLoads::added_mass, &GrainLoads::torque, &GrainLoads::spin_drag})
+      if (!(all_loads.*v).empty())
+        {
+          (loads.*v).resize(n);
+          for (std::size_t k = 0; k < n; ++k)
+            (loads.*v)[k] = (all_loads.*v)[partition.grains[k]];
+        }
     touched.assign(n, 0);
   }
 

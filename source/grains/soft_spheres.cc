@@ -174,11 +174,17 @@ namespace alluvium::grains
           py[k] += 0.5 * h * forces.fy[k];
           if (std::isinf(grains.mass[k]))
             continue;
-          const double m = grains.mass[k], m_e = m + 0.5 * h * loads.drag[k];
+          const double m = grains.mass[k] + loads.mass_added_to(k), m_e = m + 0.5 * h * loads.drag[k];
           grains.vx[k] = (m * grains.vx[k] + 0.5 * h * (loads.fx[k] + forces.fx[k])) / m_e;
           grains.vy[k] = (m * grains.vy[k] + 0.5 * h * (loads.fy[k] + forces.fy[k])) / m_e;
-          if (rotation)
-            grains.omega[k] += 0.5 * h * forces.moment[k] / disc_inertia(m, grains.radius[k]);
+          if (!rotation)
+            continue;
+          const double inertia = disc_inertia(grains.mass[k], grains.radius[k]);
+          if (loads.torque.empty())
+            grains.omega[k] += 0.5 * h * forces.moment[k] / inertia;
+          else
+            grains.omega[k] = (inertia * grains.omega[k] + 0.5 * h * (loads.torque[k] + forces.moment[k])) /
+                              (inertia + 0.5 * h * loads.spin_drag[k]);
         }
       for (std::size_t k = 0; k < wall_impulse.size(); ++k)
         for (unsigned int d = 0; d < 2; ++d)

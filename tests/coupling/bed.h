@@ -74,7 +74,10 @@ namespace bed
     double      dt       = 1e-3;
     double      filter   = 2.;                                                      // 0: the grain
     bool        moments = true, lumped = true, triangles = false, periodic = false; // in x
-    std::string drag = "disc", scheme = "semi-implicit per grain";
+    std::string drag = "disc", scheme = "semi-implicit per grain", regularisation = "floor";
+    double      added_mass = 0.;
+    bool        convection = true;
+    bool        rotation   = false;
   };
 
   /** A coupled fluid on a uniform mesh over a rectangle: slip sides, pressures below and above. */
@@ -125,6 +128,9 @@ namespace bed
       prm.enter_subsection("Coupling");
       prm.set("Drag law", settings.drag);
       prm.set("Time scheme", settings.scheme);
+      prm.set("Drag regularisation", settings.regularisation);
+      prm.set("Added mass coefficient", settings.added_mass);
+      prm.set("Rotation", settings.rotation);
       prm.leave_subsection();
       coupling.parse_parameters();
       coupling.settings.filter_radius = settings.filter;
@@ -156,7 +162,10 @@ namespace bed
   /** Superficial velocity [m/s] of the homogenised law under pressure gradient @p gradient [Pa/m]. */
   inline double darcy_velocity(const Bed &bed, const coupling::DragLaw &law, const double gradient)
   {
-    const double eps = 0.48;
+    double solid = 0.;
+    for (const double r : bed.grains.fluid_radius)
+      solid += numbers::PI * r * r;
+    const double eps = 1. - solid / (bed.width * bed.height);
     double       low = 0., high = 1.;
     for (unsigned int k = 0; k < 100; ++k)
       {
@@ -174,12 +183,13 @@ namespace bed
     double over_darcy, u_max_over_superficial, third_law, imbalance;
   };
 
-  /** Stationary flux through the fixed @p bed under a head of 0.75 of its height. */
-  inline Flux fixed_bed_flux(const Bed &bed, const Settings &s)
+  /** Stationary flux through the fixed @p bed under a head of @p gradient times its height. */
+  inline Flux fixed_bed_flux(const Bed &bed, const Settings &s, const double gradient = 0.75)
   {
-    const double pressure = 0.75 * 1000. * 9.81 * bed.height;
+    const double pressure = gradient * 1000. * 9.81 * bed.height;
     Channel      channel(bed.width, bed.height, s.h_over_d * bed.d, s, pressure);
-    double       flux = 0., last = 1.;
+    channel.solver.discretisation.convection = s.convection;
+    double flux = 0., last = 1.;
     for (unsigned int k = 0; k < 80 && (k < 4 || std::abs(flux - last) > 1e-6 * std::abs(flux)); ++k)
       {
         channel.step(bed.grains, true);

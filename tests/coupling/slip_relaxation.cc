@@ -1,6 +1,6 @@
 // A homogeneous suspension whose grains and fluid move against each other without net flux: the slip decays with the
 // rate
-//   lambda = gamma / (eps (phi rho + eps rho_p)).
+//   lambda = gamma / (eps (phi rho + eps rho_p) + C_m rho).
 // Schemes converge with first order; those that freeze the grains in the continuity equation are stable only below dt =
 // 2 eps^2 (1-r) tau_p.
 #include "bed.h"
@@ -25,8 +25,8 @@ namespace
   class Suspension
   {
   public:
-    Suspension(const double eps, const std::string &scheme, const double dt)
-      : channel(3. * h, 6. * h, h, settings(scheme, dt), 0.)
+    Suspension(const double eps, const std::string &scheme, const double dt, const double added_mass = 0.)
+      : channel(3. * h, 6. * h, h, settings(scheme, dt, added_mass), 0.)
       , eps(eps)
     {
       channel.bc.set(2, {bed::Channel::Kind::natural, "bottom", nullptr});
@@ -63,24 +63,29 @@ namespace
           const double dt = channel.settings.dt;
           for (std::size_t k = 0; k < g.n(); ++k)
             {
-              const double m = g.mass[k] + dt * channel.loads.drag[k];
-              g.vx[k]        = (g.mass[k] * g.vx[k] + dt * channel.loads.fx[k]) / m;
-              g.vy[k]        = (g.mass[k] * g.vy[k] + dt * channel.loads.fy[k]) / m;
+              const double inertia = g.mass[k] + channel.loads.mass_added_to(k);
+              const double m       = inertia + dt * channel.loads.drag[k];
+              g.vx[k]              = (inertia * g.vx[k] + dt * channel.loads.fx[k]) / m;
+              g.vy[k]              = (inertia * g.vy[k] + dt * channel.loads.fy[k]) / m;
             }
         }
       return g.vy[g.n() / 2] / v_start;
     }
 
-    static double rate(const double eps) { return gamma_value / (eps * ((1. - eps) * rho + eps * rho_p)); }
+    static double rate(const double eps, const double added_mass = 0.)
+    {
+      return gamma_value / (eps * ((1. - eps) * rho + eps * rho_p) + added_mass * rho);
+    }
 
   private:
-    static bed::Settings settings(const std::string &scheme, const double dt)
+    static bed::Settings settings(const std::string &scheme, const double dt, const double added_mass)
     {
       bed::Settings s;
-      s.dt     = dt;
-      s.filter = 0.;
-      s.drag   = "constant (test)";
-      s.scheme = scheme;
+      s.dt         = dt;
+      s.filter     = 0.;
+      s.drag       = "constant (test)";
+      s.scheme     = scheme;
+      s.added_mass = added_mass;
       return s;
     }
 
@@ -114,6 +119,24 @@ TEST(SlipRelaxation, FirstOrderConvergence)
         EXPECT_LT(error[2], 0.05) << scheme;
         EXPECT_NEAR(std::log2(error[1] / error[2]), 1., 0.2) << scheme << " eps " << eps;
       }
+}
+
+TEST(SlipRelaxation, WithAddedMass)
+{
+  const double eps = 0.6;
+  for (const std::string scheme : {"semi-implicit per piece", "semi-implicit per grain"})
+    {
+      const double time = 1. / Suspension::rate(eps, 1.), exact = std::exp(-1.);
+      double       error[3];
+      for (unsigned int k = 0; k < 3; ++k)
+        {
+          const unsigned int n = 16 << k;
+          error[k]             = std::abs(Suspension(eps, scheme, time / n, 1.).advance(n) - exact);
+        }
+      EXPECT_LT(error[2], 0.01) << scheme;
+      EXPECT_GT(std::log2(error[1] / error[2]), 0.8) << scheme; // errors of the rate and of the phase may cancel
+      EXPECT_LT(std::abs(Suspension(eps, scheme, 100. * time, 1.).advance(60)), 1.) << scheme;
+    }
 }
 
 TEST(SlipRelaxation, FrozenGrainsAreUnstableAboveTheLimit)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <alluvium/coupling/drag_law.h>
+#include <alluvium/coupling/drag_regularisation.h>
 #include <alluvium/coupling/time_scheme.h>
 #include <alluvium/fluid/vans_solver.h>
 
@@ -15,10 +16,12 @@ namespace alluvium::coupling
       {0., 0.}}; // what the fluid gave the grains, weight of displaced fluid aside [N/m]
     std::array<double, 2> force_on_fluid = {{0., 0.}}; // what the fluid's equations received [N/m]; only from audit()
     double                force_scale    = 0.;         // sum of |force| over the grains [N/m]
-    double                momentum_not_received = 0.;  // |sum of G (v^{n+1} - v*)|: see add_grain_response() [N/m]
-    std::size_t           n_pieces              = 0;
-    unsigned int          n_iterations          = 0; // linear, over all sweeps
-    unsigned int          n_loose               = 0; // solves that stopped above the tolerance
+    // with their moments about the origin, where rotation is coupled; the second only from audit() [N]
+    double       torque_on_grains = 0., torque_on_fluid = 0.;
+    double       momentum_not_received = 0.; // |sum of G (v^{n+1} - v*)|: see add_grain_response() [N/m]
+    std::size_t  n_pieces              = 0;
+    unsigned int n_iterations          = 0; // linear, over all sweeps
+    unsigned int n_loose               = 0; // solves that stopped above the tolerance
   };
 
   /**
@@ -82,19 +85,32 @@ namespace alluvium::coupling
 
   private:
     void find_drag(CouplingState &state);
+    void find_acceleration(CouplingState &state) const;
+    void find_torques(const CouplingState &state, grains::GrainLoads &loads);
     void collect_forces(const CouplingState &state);
 
-    const fluid::FluidSpace<dim> *space;
-    fluid::VansSolver<dim>       *solver;
-    PluginChoice<DragLaw>         drag_choice;
-    PluginChoice<TimeScheme>      scheme_choice;
-    std::string                   filter_text = "2 d", rule_text = "moments";
-    double                        eps_floor = 0.01;
+    /** Velocity of a piece as the fluid saw it in the latest sweep [m/s], and the force density on it [N/m^3]. */
+    struct PieceForce
+    {
+      std::array<double, 2> velocity, force;
+    };
+    PieceForce
+    piece_force(const CouplingState &state, const std::size_t k, const std::vector<PieceField> &lag_of_sweep) const;
+
+    const fluid::FluidSpace<dim>    *space;
+    fluid::VansSolver<dim>          *solver;
+    PluginChoice<DragLaw>            drag_choice;
+    PluginChoice<TimeScheme>         scheme_choice;
+    PluginChoice<DragRegularisation> regularisation_choice;
+    std::string                      filter_text = "2 d", rule_text = "moments";
+    double                           added_mass = 0.;
+    bool                             rotation   = false;
 
     OverlapMap                         map;
     fluid::Vector                      eps;
     fluid::BlockVector                 latest_sweep;
     CouplingReport                     last, of_void_fraction;
+    double                             dt_of_step = 0.;
     std::vector<std::array<double, 2>> force, predicted;
     std::vector<double>                drag_means; // sums over each grain's pieces on this rank: A eps, A Re
     std::vector<std::uint8_t>          outside;    // the drag law's range, at any time

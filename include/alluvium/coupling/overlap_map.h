@@ -19,6 +19,14 @@ namespace alluvium::coupling
     Rule   rule          = Rule::moments;
     /** A grain that has moved by less than this [contact diameters] since it was cut is not cut again. */
     double tolerance = 1e-6;
+    bool   keep_arms = false; // see OverlapMap::arms()
+  };
+
+  /** Where a piece is in its grain, and how far it stretches. */
+  struct PieceArm
+  {
+    std::array<double, 2> arm;     // centroid minus the grain's centre [m]
+    std::array<double, 3> moments; // means of (x - centroid)^2, xy, yy over the piece [m^2]
   };
 
   /**
@@ -50,6 +58,8 @@ namespace alluvium::coupling
     const fluid::InterphaseTerms<dim> &terms() const { return pieces; }
     /** Index into the grain arrays, per piece. */
     const std::vector<unsigned int> &grain() const { return grain_of_piece; }
+    /** Per piece; empty unless the settings ask for it. */
+    const std::vector<PieceArm> &arms() const { return arm_of_piece; }
 
     /**
      * Row-sum lumped void fraction (9): 1 - sum over pieces of A phi_i / integral of phi_i. Where that falls below zero
@@ -64,13 +74,16 @@ namespace alluvium::coupling
   private:
     /** Bring @p position up to date; which grains moved. */
     std::vector<std::uint8_t> find_moved(const grains::GrainArrays &grains, const OverlapSettings &settings);
-    void
-    add_piece(const unsigned int cell, const unsigned int grain, const geometry::Overlap &overlap, const bool moments);
+    void                      add_piece(const unsigned int       cell,
+                                        const unsigned int       grain,
+                                        const geometry::Overlap &overlap,
+                                        const OverlapSettings   &settings);
 
     const fluid::FluidSpace<dim>          *space;
     std::vector<geometry::PreparedPolygon> polygons;
     fluid::InterphaseTerms<dim>            pieces;
     std::vector<unsigned int>              grain_of_piece;
+    std::vector<PieceArm>                  arm_of_piece;
     std::vector<double>                    raw_area; // of each piece, before weights [m^2]
 
     /** The discs as they were cut; empty: nothing is. */

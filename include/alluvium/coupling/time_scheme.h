@@ -15,18 +15,53 @@ namespace alluvium::coupling
   std::vector<PieceField>
   evaluate(const OverlapMap &map, const fluid::FluidSpace<2> &space, const fluid::BlockVector &field);
 
+  /** Gradient of the fluid velocity at a piece's centroid, [component][direction] [1/s]. */
+  using VelocityGradient = std::array<std::array<double, 2>, 2>;
+  std::vector<VelocityGradient>
+  velocity_gradients(const OverlapMap &map, const fluid::FluidSpace<2> &space, const fluid::BlockVector &field);
+
   /** All that a time scheme may know at the start of a step. Per-piece arrays follow the overlap map, per-grain ones
    * the grains. */
   struct CouplingState
   {
+    CouplingState(const grains::GrainArrays       &grains,
+                  const std::vector<std::uint8_t> &touched,
+                  const OverlapMap                &map,
+                  const double                     dt)
+      : grains(grains)
+      , touched(touched)
+      , map(map)
+      , dt(dt)
+    {}
+
     const grains::GrainArrays       &grains;
     const std::vector<std::uint8_t> &touched; // had a contact impulse in the last step
     const OverlapMap                &map;
-    double                           dt;            // [s]
-    std::array<double, 2>            gravity;       // [m/s^2]
-    double                           fluid_density; // [kg/m^3]
-    std::vector<double>              gamma;         // drag per piece [N s/m^4]
-    std::vector<PieceField>          old, latest;   // t^n on the new pieces; after the latest sweep
+    double                           dt;                         // [s]
+    std::array<double, 2>            gravity       = {{0., 0.}}; // [m/s^2]
+    double                           fluid_density = 0.;         // [kg/m^3]
+    std::vector<double>              gamma;                      // drag per piece [N s/m^4]
+    std::vector<PieceField>          old, latest;                // t^n on the new pieces; after the latest sweep
+
+    std::vector<VelocityGradient> old_gradient, latest_gradient; // of the same; empty where spin is not coupled
+
+    // Added mass C_m rho per volume of grain [kg/m^3] and, per piece, the fluid's acceleration but for du/dt: u.grad u
+    // - u^n/dt [m/s^2]; zero and empty where it is off.
+    double                             added_density = 0.;
+    std::vector<std::array<double, 2>> acceleration;
+
+    /** Factor of u - v on piece @p k: drag, and what added mass makes of their difference's rate [N s/m^4]. */
+    double coefficient(const std::size_t k) const { return gamma[k] + added_density / dt; }
+    /**
+     * What else acts on piece @p k because of added mass: C_m rho (u.grad u - u^n/dt + v^n/dt), v^n with the grain's
+     * spin [N/m^3].
+     */
+    std::array<double, 2> added_force(const std::size_t k) const;
+    bool                  couples_spin() const { return !map.arms().empty(); }
+    /** What a spin @p omega adds to the velocity of piece @p k; zero where spin is not coupled [m/s]. */
+    std::array<double, 2> spin_velocity(const std::size_t k, const double omega) const;
+    /** With the spin at t^n. */
+    std::array<double, 2> spin_velocity(const std::size_t k) const;
 
     double volume(const std::size_t g) const;
     /** Weight less buoyancy [N/m]: gravity acts on the grain, the hydrostatic part of the pressure is not in p. */
@@ -43,6 +78,9 @@ namespace alluvium::coupling
   public:
     virtual ~TimeScheme() = default;
     virtual void add_parameters(dealii::ParameterHandler &) {}
+
+    /** Whether the grains' acceleration that the fluid sees is the one they take: added mass needs that. */
+    virtual bool predicts_acceleration() const { return false; }
 
     /** Solves of the fluid a step; from the second on only the known terms change, the matrix stays. */
     virtual unsigned int n_sweeps() const { return 1; }

@@ -74,6 +74,12 @@ namespace alluvium::fluid
      */
     std::array<double, dim> interphase_force(const VansProblem<dim> &problem, const BlockVector &solution) const;
 
+    /**
+     * The moment of the same about the origin [N], in two dimensions. Streamline-upwind weights let a piece act
+     * upstream of where it is: only without convection is it minus the grains' torque. Collective.
+     */
+    double interphase_torque(const VansProblem<dim> &problem, const BlockVector &solution) const;
+
     const dealii::TrilinosWrappers::BlockSparseMatrix &matrix() const { return system_matrix; }
 
     /** Sizes of the two equations' terms before they cancel (l2 over cells and nodes): what a residual is small

@@ -48,6 +48,9 @@ namespace alluvium::fluid
     /** What the fluid received from the pieces in the latest solve [N/m]. */
     std::array<double, dim> interphase_force() const { return assembler.interphase_force(current, iterate); }
 
+    /** The moment of that about the origin [N]. */
+    double interphase_torque() const { return assembler.interphase_torque(current, iterate); }
+
     const BlockVector &solution() const { return iterate; }
     const BlockVector &old() const { return previous; }
     /** For transfer, restart and initial values; the caller sets ghosts. */

@@ -42,18 +42,27 @@ namespace alluvium::grains
   }
 
   /**
-   * What acts on every grain during one fluid step besides contacts: m dv/dt = force - drag * v + contacts.
-   * `drag` [N s/m^2] is G = sum over pieces of A gamma, zero where drag was explicit. All vectors have n() entries.
+   * What acts on every grain during one fluid step besides contacts:
+   *   (m + added_mass) dv/dt = force - drag * v + contacts,      I domega/dt = torque - spin_drag * omega + contacts.
+   * `drag` [N s/m^2] is G = sum over pieces of A gamma, zero where drag was explicit. All vectors have n() entries; the
+   * last three are empty where the fluid gives neither added mass nor torque.
    */
   struct GrainLoads
   {
     std::vector<double> fx, fy; // [N/m]
     std::vector<double> drag;
+    std::vector<double> added_mass; // [kg/m]
+    std::vector<double> torque;     // [N]
+    std::vector<double> spin_drag;  // [N s]
 
     void reset(const std::size_t size)
     {
       for (auto *v : {&fx, &fy, &drag})
         v->assign(size, 0.);
+      for (auto *v : {&added_mass, &torque, &spin_drag})
+        v->clear();
     }
+
+    double mass_added_to(const std::size_t grain) const { return added_mass.empty() ? 0. : added_mass[grain]; }
   };
 } // namespace alluvium::grains

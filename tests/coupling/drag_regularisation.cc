@@ -1,0 +1,109 @@
+// What each treatment of low void fractions gives from cells far coarser than a grain to cells far finer.
+#include "bed.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+namespace
+{
+  using Registry = alluvium::Registry<bed::coupling::DragRegularisation>;
+
+  /** A square array of discs a distance 2 d apart between sides of symmetry. */
+  bed::Bed square_array(const unsigned int n)
+  {
+    bed::Bed b;
+    b.d     = 2.2e-4;
+    b.width = b.height = 2. * n * b.d;
+    b.grains.resize(n * n);
+    for (unsigned int k = 0; k < n * n; ++k)
+      {
+        b.grains.id[k]     = k;
+        b.grains.x[k]      = (2. * (k % n) + 1.) * b.d;
+        b.grains.y[k]      = (2. * (k / n) + 1.) * b.d;
+        b.grains.radius[k] = b.grains.fluid_radius[k] = 0.5 * b.d;
+        b.grains.mass[k]                              = 1.;
+      }
+    return b;
+  }
+
+  /** Permeability of that array over that of the law `disc`, from Sangani and Acrivos (Int. J. Multiphase Flow 8,
+   * 1982). */
+  double resolved_over_homogenised()
+  {
+    const double phi = M_PI / 16.;
+    const double force =
+      4. * M_PI / (0.5 * std::log(1. / phi) - 0.738 + phi - 0.887 * phi * phi + 2.038 * phi * phi * phi);
+    return M_PI / 4. * (2. / M_PI) * 4.8 * 4.8 * std::pow(1. - phi, -4.8) / force; // F / (eta U) of both
+  }
+
+  bed::Settings creeping(const double h_over_d, const double filter, const std::string &regularisation)
+  {
+    bed::Settings s;
+    s.h_over_d       = h_over_d;
+    s.filter         = filter;
+    s.regularisation = regularisation;
+    s.dt             = 1e-3;
+    s.convection     = false;
+    return s;
+  }
+} // namespace
+
+TEST(DragRegularisation, FiniteFromZeroToOneAndTheLawInBeds)
+{
+  const auto   law = alluvium::Registry<bed::coupling::DragLaw>::entries().at("disc").create();
+  const double d = 2.2e-4, eta = 1e-3;
+  for (const auto &[name, entry] : Registry::entries())
+    {
+      const auto               regularisation = entry.create();
+      dealii::ParameterHandler prm;
+      regularisation->add_parameters(prm);
+      double last = std::numeric_limits<double>::infinity();
+      for (double eps = 0.; eps < 1.; eps += 1e-3)
+        {
+          const double gamma = regularisation->gamma(*law, {eps, 0., d, 1000., eta});
+          EXPECT_GT(gamma, 0.) << name << ' ' << eps;
+          EXPECT_TRUE(std::isfinite(gamma)) << name << ' ' << eps;
+          EXPECT_LE(gamma, last) << name << ' ' << eps; // the denser, the more
+          last = gamma;
+          if (eps > 0.35)
+            EXPECT_DOUBLE_EQ(gamma, law->gamma({eps, 0., d, 1000., eta})) << name << ' ' << eps;
+        }
+    }
+  const auto               floor = Registry::entries().at("floor").create();
+  dealii::ParameterHandler prm;
+  floor->add_parameters(prm);
+  prm.set("Minimal void fraction", 0.3);
+  EXPECT_DOUBLE_EQ(floor->gamma(*law, {0.1, 0., d, 1000., eta}), law->gamma({0.3, 0., d, 1000., eta}));
+}
+
+TEST(DragRegularisationValidation, RandomBedAndSquareArray)
+{
+  std::printf("square array, resolved: %.3f\n", resolved_over_homogenised());
+  std::printf("| bed | R | h/d | none | floor | cap | penalisation |\n|---|---|---|---|---|---|---|\n");
+  for (const bool random : {false, true})
+    {
+      const bed::Bed b = random ? bed::random_bed(1, 16., 12.) : square_array(4);
+      for (const double filter : {0., 1.5, 2.})
+        for (double h = 4.; h > (random ? 0.1 : 0.06); h /= 2.)
+          {
+            std::printf("| %s | %s | %g |",
+                        random ? "random" : "square",
+                        filter == 0.   ? "r"
+                        : filter == 2. ? "2 d"
+                                       : "1.5 d",
+                        h);
+            for (const std::string name : {"none", "floor", "cap", "penalisation"})
+              try
+                {
+                  std::printf(" %.4f |", bed::fixed_bed_flux(b, creeping(h, filter, name), 1e-4).over_darcy);
+                  std::fflush(stdout);
+                }
+              catch (const dealii::ExceptionBase &)
+                {
+                  std::printf(" fails |");
+                }
+            std::printf("\n");
+          }
+    }
+}
