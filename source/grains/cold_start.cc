@@ -9,10 +9,16 @@ namespace alluvium::grains
 {
   namespace
   {
-    constexpr double       many     = 1e7; // terms that a sum may have
-    constexpr unsigned int n_cycles = 5;
-    constexpr double       growth   = 1.5; // of their lengths
-    constexpr double       falling  = 0.3; // this part of the free momentum left: the bed is not at rest
+    constexpr double many    = 1e7; // terms that a sum may have
+    constexpr double growth  = 1.5; // of the lengths of the cycles
+    constexpr double falling = 0.3; // this part of the free momentum left: the bed is not at rest
+
+    /** Each balance disturbs what sweeps have achieved in the small: shallow beds need fewer. */
+    unsigned int choose_n_cycles(const double bed_size)
+    {
+      constexpr double discs_a_cycle = 3200.;
+      return 2 + static_cast<unsigned int>(std::min(3., bed_size * bed_size / discs_a_cycle));
+    }
 
     /** The weight above every disc's width, from columns of cells two mean diameters high and twice as wide. */
     std::vector<double> weight_above(const ContactProblem &problem, const DiscPlaces &places, const BedWeight &weight)
@@ -98,9 +104,10 @@ namespace alluvium::grains
     guess(problem, places, weight);
 
     ContactSolution  solution;
-    ContactTolerance part = tolerance;
-    part.at_rest          = true;
-    double sweeps         = 20. + 0.09 * blocks.bed_size(); // a block must come to rest inside, whatever its size
+    ContactTolerance part       = tolerance;
+    part.at_rest                = true;
+    const unsigned int n_cycles = choose_n_cycles(blocks.bed_size());
+    double             sweeps   = 20. + 0.09 * blocks.bed_size(); // a block must come to rest inside, whatever its size
     for (unsigned int cycle = 0;; ++cycle)
       {
         const unsigned int before = solution.sweeps, left = tolerance.max_sweeps - before;
