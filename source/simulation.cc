@@ -126,6 +126,7 @@ namespace alluvium
 
   private:
     mesh::RefinementContext refinement_context() const;
+    void                    count_cell_weights();
     void                    find_initial_mesh();
     bool                    adapt_mesh();
     void                    step();
@@ -150,6 +151,7 @@ namespace alluvium
     // the rooms; those of the fluid stay empty in a dry scene
     mesh::Domain<dim>                         domain;
     mesh::Adaptivity<dim>                     adaptivity;
+    mesh::CellWeights                         cell_weights; // before the mesh, which asks it
     std::unique_ptr<Triangulation<dim>>       triangulation;
     fluid::BoundaryConditions<dim>            boundary_conditions;
     fluid::FluidSpace<dim>                    space;
@@ -241,6 +243,8 @@ namespace alluvium
         coarse_cell_size = domain.coarse_cell_size() > 0. ? domain.coarse_cell_size() : adaptivity.coarse_size(context);
         triangulation    = domain.make_triangulation(coarse_cell_size);
         adaptivity.check_mesh(*triangulation);
+        count_cell_weights();
+        adaptivity.balance(*triangulation, cell_weights);
         adaptivity.make_initial_mesh(*triangulation, context);
 
         const double g = std::hypot(gravity[0], gravity[1]);
@@ -506,6 +510,12 @@ namespace alluvium
   }
 
 
+  void Simulation::Implementation::count_cell_weights()
+  {
+    cell_weights.count(grains.x, grains.y, coupling.reach(mesh::mean_diameter(grains)));
+  }
+
+
   /** Criteria that look at the fluid see more on a finer mesh: they are asked until the mesh stays. */
   void Simulation::Implementation::find_initial_mesh()
   {
@@ -525,8 +535,9 @@ namespace alluvium
     fluid::BlockVector     field;
     const mesh::FluidState fluid_state{space, solver.solution(), coupling.void_fraction()};
     auto                   context = refinement_context();
-    context.fluid                  = &fluid_state;
-    const auto report              = adaptivity.adapt(
+    count_cell_weights();
+    context.fluid     = &fluid_state;
+    const auto report = adaptivity.adapt(
       *triangulation,
       context,
       [&] { transfer->prepare({&solver.solution()}); },
@@ -751,6 +762,7 @@ namespace alluvium
         mesh::FluidCheckpoint<dim> checkpoint(from);
         auto                       mesh = domain.make_triangulation(coarse_cell_size);
         checkpoint.load_mesh(*mesh);
+        adaptivity.balance(*mesh, cell_weights);
         space.attach(*mesh);
         triangulation = std::move(mesh);
         transfer      = std::make_unique<mesh::FieldTransfer<dim>>(space.dof_handler(), space.nodal_dof_handler());

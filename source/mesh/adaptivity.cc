@@ -143,11 +143,22 @@ namespace alluvium::mesh
 
 
   template <int dim>
+  void Adaptivity<dim>::balance(Triangulation<dim> &triangulation, const CellWeights &weights)
+  {
+    if (dynamic_cast<parallel::distributed::Triangulation<dim> *>(&triangulation))
+      triangulation.signals.weight.connect([&weights](const typename Triangulation<dim>::cell_iterator &cell,
+                                                      const auto) { return weights.weight(box_of(cell)); });
+  }
+
+
+  template <int dim>
   AdaptationReport Adaptivity<dim>::make_initial_mesh(Triangulation<dim>      &triangulation,
                                                       const RefinementContext &context) const
   {
     check_mesh(triangulation);
     const AdaptationReport report = run(triangulation, context, {}, {}, true);
+    if (auto *distributed = dynamic_cast<parallel::distributed::Triangulation<dim> *>(&triangulation))
+      distributed->repartition(); // also if nothing changed: the first partition knew of no weights
     Domain<dim>::check_partition(triangulation);
     return report;
   }

@@ -45,6 +45,12 @@ namespace alluvium::coupling
     /** Cut @p grains and find the void fraction; step() does it by itself. */
     void update_void_fraction(const grains::GrainArrays &grains);
 
+    /** How far from its centre a grain of @p diameter is spread [m]. */
+    double reach(const double diameter) const
+    {
+      return settings.filter_radius > 0. ? settings.filter_radius * diameter : 0.5 * diameter;
+    }
+
     /** Cut all grains anew in the next step, whether they moved or not. */
     void forget_positions() { map.forget_positions(); }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <alluvium/mesh/cell_weights.h>
 #include <alluvium/mesh/refinement_criterion.h>
 #include <alluvium/utilities/plugin.h>
 
@@ -71,6 +72,12 @@ namespace alluvium::mesh
                            const RefinementContext         &context,
                            const std::function<void()>     &before,
                            const std::function<void()>     &after) const;
+
+    /**
+     * Let @p weights, asked at each change, decide how many cells each rank gets; they must outlive the mesh. Triangles
+     * stay where they are.
+     */
+    static void balance(dealii::Triangulation<dim, dim> &triangulation, const CellWeights &weights);
 
     /**
      * Throws UserError if the parameters ask for adaptation of a mesh of triangles, which is impossible: `Interval`
