@@ -532,24 +532,33 @@ namespace alluvium
   bool Simulation::Implementation::adapt_mesh()
   {
     const auto             timer = timers.scope("mesh adaptation");
-    fluid::BlockVector     field;
+    fluid::BlockVector     field, before;
     const mesh::FluidState fluid_state{space, solver.solution(), coupling.void_fraction()};
     auto                   context = refinement_context();
+    context.fluid                  = &fluid_state;
     count_cell_weights();
-    context.fluid     = &fluid_state;
     const auto report = adaptivity.adapt(
       *triangulation,
       context,
-      [&] { transfer->prepare({&solver.solution()}); },
+      [&] {
+        transfer->prepare({&solver.solution(), &solver.old()});
+      },
       [&] {
         space.reinit(boundary_conditions);
-        field = space.make_field();
-        transfer->interpolate({&field}, space.hanging_constraints(), {}, space.nodal_constraints());
+        field = before = space.make_field();
+        transfer->interpolate({&field, &before}, space.hanging_constraints(), {}, space.nodal_constraints());
         solver.reinit();
         solver.set_solution(field);
+        solver.old() = before;
         coupling.reinit();
         counts["mesh adaptations"] += 1;
       });
+    if (report.changed && n_steps > 0)
+      {
+        solver.set_solution(field);
+        boundary_conditions.set_time(time);
+        coupling.rebalance(boundary_conditions, grains, parameters.time_step, before);
+      }
     return report.changed;
   }
 
@@ -687,7 +696,7 @@ namespace alluvium
     if (has_fluid)
       {
         mesh::FluidCheckpoint<dim>(folder_new)
-          .save(space.dof_handler(), {&solver.solution()}, space.nodal_dof_handler(), {});
+          .save(space.dof_handler(), {&solver.solution(), &solver.old()}, space.nodal_dof_handler(), {});
         // ... with a fresh preconditioner, and with all grains cut anew
         solver.linear_solver.clear();
         coupling.forget_positions();
@@ -769,9 +778,11 @@ namespace alluvium
         space.reinit(boundary_conditions);
         solver.reinit();
         coupling.reinit();
-        fluid::BlockVector field = space.make_field();
-        checkpoint.load_fields(space.dof_handler(), {&field}, space.nodal_dof_handler(), {});
+        fluid::BlockVector field = space.make_field(), before = field;
+        checkpoint.load_fields(space.dof_handler(), {&field, &before}, space.nodal_dof_handler(), {});
         solver.set_solution(field);
+        solver.old() = before;
+        solver.old().update_ghost_values();
       }
     statistics->resume(time);
   }

@@ -8,6 +8,16 @@ namespace alluvium::coupling
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** Grains whose velocity is known. */
+    std::unique_ptr<TimeScheme> frozen_scheme()
+    {
+      return Registry<TimeScheme>::entries().at("implicit drag").create();
+    }
+  } // namespace
+
+
   Coupling::Coupling(const fluid::FluidSpace<dim> &space, fluid::VansSolver<dim> &solver)
     : space(&space)
     , solver(&solver)
@@ -133,6 +143,47 @@ namespace alluvium::coupling
     update_void_fraction(grains);
     dt_of_step = dt;
     CouplingState state(grains, touched, map, dt);
+    find_state(state);
+
+    // grains that cannot move need no prediction
+    const auto              frozen = frozen_scheme();
+    const TimeScheme       &scheme = fixed ? *frozen : scheme_choice.get();
+    fluid::VansProblem<dim> problem{};
+    problem.dt = dt;
+    solve(boundary_conditions, scheme, problem, state);
+    collect_forces(state);
+    loads.reset(grains.n());
+    scheme.loads(state, force, loads);
+    if (rotation)
+      find_torques(state, loads);
+  }
+
+
+  void Coupling::rebalance(const fluid::BoundaryConditions<dim> &boundary_conditions,
+                           const grains::GrainArrays            &grains,
+                           const double                          dt,
+                           const fluid::BlockVector             &before)
+  {
+    // a step so long that only the acceleration that is given is left
+    constexpr double                factor = 1e3;
+    const std::vector<std::uint8_t> touched(grains.n(), 0);
+    update_void_fraction(grains);
+    CouplingState state(grains, touched, map, factor * dt);
+    find_state(state);
+    fluid::BlockVector inertia = solver->old();
+    inertia.zero_out_ghost_values();
+    inertia.sadd(1. - factor, factor, before);
+    inertia.update_ghost_values();
+    fluid::VansProblem<dim> problem{};
+    problem.dt               = factor * dt;
+    problem.inertia          = &inertia;
+    problem.stabilisation_dt = dt;
+    solve(boundary_conditions, *frozen_scheme(), problem, state);
+  }
+
+
+  void Coupling::find_state(CouplingState &state)
+  {
     state.gravity       = {{solver->gravity[0], solver->gravity[1]}};
     state.fluid_density = solver->properties.density;
     state.old           = evaluate(map, *space, solver->old());
@@ -142,15 +193,16 @@ namespace alluvium::coupling
     find_drag(state);
     if (added_mass > 0.)
       find_acceleration(state);
+  }
 
-    // grains that cannot move need no prediction
-    const auto        frozen = Registry<TimeScheme>::entries().at("implicit drag").create();
-    const TimeScheme &scheme = fixed ? *frozen : scheme_choice.get();
 
+  void Coupling::solve(const fluid::BoundaryConditions<dim> &boundary_conditions,
+                       const TimeScheme                     &scheme,
+                       fluid::VansProblem<dim>               problem,
+                       CouplingState                        &state)
+  {
     auto &exchange = map.terms().exchange;
     scheme.exchange_terms(state, 0, exchange);
-    fluid::VansProblem<dim> problem{};
-    problem.dt            = dt;
     problem.void_fraction = &eps;
     problem.solid         = &map.terms();
     problem.reference     = {{nullptr, &solver->old().block(0), &latest_sweep.block(0)}};
@@ -174,11 +226,6 @@ namespace alluvium::coupling
     state.latest = evaluate(map, *space, solver->solution());
     if (rotation)
       state.latest_gradient = velocity_gradients(map, *space, solver->solution());
-    collect_forces(state);
-    loads.reset(grains.n());
-    scheme.loads(state, force, loads);
-    if (rotation)
-      find_torques(state, loads);
   }
 
 

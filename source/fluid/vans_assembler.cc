@@ -50,6 +50,8 @@ namespace alluvium::fluid
             for (unsigned int d = 0; d < dim; ++d)
               {
                 u_old[v][d] = problem.old->block(0).local_element(cell->velocity[v][d]);
+                u_start[v][d] =
+                  (problem.inertia ? problem.inertia : problem.old)->block(0).local_element(cell->velocity[v][d]);
                 u_mean[d] += u_old[v][d] / n;
               }
           }
@@ -61,7 +63,8 @@ namespace alluvium::fluid
           sigma += problem.solid->shape[k].area * problem.solid->exchange[k].gamma;
         sigma /= cell->measure;
         const double rho_eps = problem.fluid.density * eps_mean, h = cell->size;
-        const double inertia = 2. * rho_eps / problem.dt, advection = 2. * rho_eps * u_norm / h,
+        const double dt      = problem.stabilisation_dt > 0. ? problem.stabilisation_dt : problem.dt;
+        const double inertia = 2. * rho_eps / dt, advection = 2. * rho_eps * u_norm / h,
                      diffusion = 12. * eps_mean * problem.fluid.viscosity / (h * h), drag = 2. * sigma;
         const double tau =
           1. / std::sqrt(inertia * inertia + advection * advection + diffusion * diffusion + drag * drag + 1e-300);
@@ -192,7 +195,7 @@ namespace alluvium::fluid
             std::array<double, dim>     force{};
             for (unsigned int d = 0; d < dim; ++d)
               for (unsigned int v = 0; v < n; ++v)
-                force[d] += inertia * phi[v] * u_old[v][d];
+                force[d] += inertia * phi[v] * u_start[v][d];
             double source = 0.;
             if (problem.body_force || problem.mass_source)
               {
@@ -492,7 +495,7 @@ namespace alluvium::fluid
       unsigned int                           begin = 0, end = 0;
       const CellData<dim>                   *cell = nullptr;
       std::array<double, n>                  eps;
-      std::array<std::array<double, dim>, n> u_old;
+      std::array<std::array<double, dim>, n> u_old, u_start;
       std::array<double, dim>                u_mean;
       double                                 pspg = 0., supg = 0.;
     };

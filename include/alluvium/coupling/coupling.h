@@ -66,6 +66,17 @@ namespace alluvium::coupling
               grains::GrainLoads                   &loads);
 
     /**
+     * The mesh has changed, and the fields were carried over: find those that have on it the acceleration that they
+     * had, (solution - @p before)/@p dt, and so the same forces on the grains, which move with their velocities. What
+     * interpolation left would pass for an acceleration in the next steps. Boundary conditions are at the present time.
+     * Collective.
+     */
+    void rebalance(const fluid::BoundaryConditions<dim> &boundary_conditions,
+                   const grains::GrainArrays            &grains,
+                   const double                          dt,
+                   const fluid::BlockVector             &before);
+
+    /**
      * Tell what the grains made of the loads: where their drag was implicit, they got G (v^{n+1} - v*) that the fluid
      * did not see.
      */
@@ -90,6 +101,11 @@ namespace alluvium::coupling
     OverlapSettings settings;
 
   private:
+    void find_state(CouplingState &state);
+    void solve(const fluid::BoundaryConditions<dim> &boundary_conditions,
+               const TimeScheme                     &scheme,
+               fluid::VansProblem<dim>               problem,
+               CouplingState                        &state);
     void find_drag(CouplingState &state);
     void find_acceleration(CouplingState &state) const;
     void find_torques(const CouplingState &state, grains::GrainLoads &loads);

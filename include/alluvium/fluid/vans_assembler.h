@@ -29,8 +29,10 @@ namespace alluvium::fluid
     FluidProperties               fluid;
     Discretisation                discretisation;
     double                        dt;
-    const Vector                 *void_fraction; // nodal
-    const BlockVector            *old;           // u^n (block 0)
+    const Vector                 *void_fraction;              // nodal
+    const BlockVector            *old;                        // u^n (block 0)
+    const BlockVector            *inertia          = nullptr; // u of du/dt = (u^{n+1} - u)/dt where that is not u^n
+    double                        stabilisation_dt = 0.;      // dt of tau where that is not dt [s]
     const InterphaseTerms<dim>   *solid;
     std::array<const Vector *, 3> reference   = {{nullptr, nullptr, nullptr}}; // u_ref of the pieces; [0] stays null
     const dealii::Function<dim>  *body_force  = nullptr; // [N/m^3], dim components; for manufactured solutions

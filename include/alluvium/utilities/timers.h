@@ -47,6 +47,7 @@ namespace alluvium
     std::map<std::string, Phase> phases; // a map: references to its elements stay good
   };
 
-  /** A table, the dearest phase first, with shares of @p total wall seconds. A name `a: b` tells of a part of phase a. */
+  /** A table, the dearest phase first, with shares of @p total wall seconds. A name `a: b` tells of a part of phase a.
+   */
   void print_timers(std::ostream &out, const std::map<std::string, Timers::Phase> &phases, double total);
 } // namespace alluvium
