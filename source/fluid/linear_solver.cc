@@ -38,7 +38,8 @@ namespace alluvium::fluid
       }
     };
 
-    /** SIMPLE: u* = A^-1 r_u, p = S^-1 (r_p - C u*), u = u* - diag(A)^-1 B p, with ILU and a V-cycle as the inverses. */
+    /** SIMPLE: u* = A^-1 r_u, p = S^-1 (r_p - C u*), u = u* - diag(A)^-1 B p, with ILU and a V-cycle as the inverses.
+     */
     struct Simple
     {
       const TrilinosWrappers::BlockSparseMatrix &matrix;
@@ -85,7 +86,7 @@ namespace alluvium::fluid
 
   void LinearSolver::clear()
   {
-    exists = false;
+    exists = strong = false;
     velocity.clear();
     pressure.clear();
     schur.reset();
@@ -95,7 +96,7 @@ namespace alluvium::fluid
   void LinearSolver::build(const TrilinosWrappers::BlockSparseMatrix &matrix)
   {
     const auto &A = matrix.block(0, 0);
-    velocity.initialize(A);
+    velocity.initialize(A, TrilinosWrappers::PreconditionILU::AdditionalData(strong ? 2 : 0));
 
     negative_inverse_diagonal.clear();
     TrilinosWrappers::MPI::Vector inverse_diagonal(A.locally_owned_range_indices(), A.get_mpi_communicator());
@@ -149,7 +150,7 @@ namespace alluvium::fluid
       {
         SolverControl                                     control(max_iterations, target, false, false);
         typename SolverGMRES<BlockVector>::AdditionalData data;
-        data.max_n_tmp_vectors     = 60;
+        data.max_n_tmp_vectors     = strong ? 150 : 60;
         data.right_preconditioning = true;
         SolverGMRES<BlockVector> gmres(control, data);
         const Simple             preconditioner{matrix, velocity, pressure, negative_inverse_diagonal, ratio, rhs};
@@ -161,9 +162,10 @@ namespace alluvium::fluid
           }
         catch (const SolverControl::NoConvergence &)
           {
-            // an old preconditioner gets a second chance as a fresh one
-            if (!fresh)
+            // an old preconditioner gets a second chance as a fresh one, a fresh one as a stronger one
+            if (!fresh || !strong)
               {
+                strong = fresh;
                 build(matrix);
                 retry = true;
                 continue;

@@ -18,7 +18,8 @@ namespace alluvium::fluid
   /**
    * GMRES with a SIMPLE preconditioner: ILU(0) on the velocity block, one algebraic multigrid V-cycle on
    * the Schur complement D - C diag(A)^-1 B. The preconditioner is kept over steps and rebuilt when it has become
-   * clearly worse than when it was fresh.
+   * clearly worse than when it was fresh. Where it fails (fast flow through fine cells in long steps) ILU(2) and a
+   * longer memory of GMRES have a try.
    */
   class LinearSolver
   {
@@ -46,7 +47,7 @@ namespace alluvium::fluid
   private:
     void build(const dealii::TrilinosWrappers::BlockSparseMatrix &matrix);
 
-    bool                                      fresh = false, exists = false;
+    bool                                      fresh = false, exists = false, strong = false;
     unsigned int                              n_when_fresh = 0;
     std::vector<double>                       negative_inverse_diagonal; // -1/diag(A), owned rows
     std::unique_ptr<Epetra_CrsMatrix>         schur;
