@@ -178,7 +178,11 @@ namespace alluvium::coupling
     problem.dt               = factor * dt;
     problem.inertia          = &inertia;
     problem.stabilisation_dt = dt;
+    // what the solver leaves is an acceleration, too: that of a step, not of a long one
+    const double tolerance          = solver->linear_solver.tolerance;
+    solver->linear_solver.tolerance = std::max(tolerance / factor, std::min(tolerance, 1e-12));
     solve(boundary_conditions, *frozen_scheme(), problem, state);
+    solver->linear_solver.tolerance = tolerance;
   }
 
 

@@ -32,7 +32,7 @@ for kind in bed adaptive triangles dry; do
   echo "$more" | scene_from bed
 
   common=("${as_it_comes[@]}" --set 'Output/Digits=15')
-  [ $kind != adaptive ] || common+=(--set 'Boundary conditions/Pressure=top: 0; bottom: rho*g*H + 8*rho*g*L')
+  [ $kind != adaptive ] || common+=(--set 'Boundary conditions/Pressure=top: 0; bottom: rho*g*H + 6*rho*g*L')
   whole=("${every[@]}")
   two_parts 1
   if [ $kind != adaptive ]; then
