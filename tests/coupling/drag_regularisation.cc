@@ -77,33 +77,41 @@ TEST(DragRegularisation, FiniteFromZeroToOneAndTheLawInBeds)
   EXPECT_DOUBLE_EQ(floor->gamma(*law, {0.1, 0., d, 1000., eta}), law->gamma({0.3, 0., d, 1000., eta}));
 }
 
+// With a filter no void fraction is low enough to be treated: all columns would be the same.
 TEST(DragRegularisationValidation, RandomBedAndSquareArray)
 {
   std::printf("square array, resolved: %.3f\n", resolved_over_homogenised());
   std::printf("| bed | R | h/d | none | floor | cap | penalisation |\n|---|---|---|---|---|---|---|\n");
-  for (const bool random : {false, true})
+  for (const bool random : {true, false})
     {
       const bed::Bed b = random ? bed::random_bed(1, 16., 12.) : square_array(4);
       for (const double filter : {0., 1.5, 2.})
         for (double h = 4.; h > (random ? 0.1 : 0.06); h /= 2.)
           {
-            std::printf("| %s | %s | %g |",
-                        random ? "random" : "square",
-                        filter == 0.   ? "r"
-                        : filter == 2. ? "2 d"
-                                       : "1.5 d",
-                        h);
+            std::string row = std::string("| ") + (random ? "random" : "square") + " | " +
+                              (filter == 0.   ? "r"
+                               : filter == 2. ? "2 d"
+                                              : "1.5 d") +
+                              " | " + std::to_string(h).substr(0, 6) + " |";
+            std::string last;
             for (const std::string name : {"none", "floor", "cap", "penalisation"})
-              try
-                {
-                  std::printf(" %.4f |", bed::fixed_bed_flux(b, creeping(h, filter, name), 1e-4).over_darcy);
-                  std::fflush(stdout);
-                }
-              catch (const dealii::ExceptionBase &)
-                {
-                  std::printf(" fails |");
-                }
-            std::printf("\n");
+              {
+                if (filter == 0. || name == "none")
+                  try
+                    {
+                      last =
+                        std::to_string(bed::fixed_bed_flux(b, creeping(h, filter, name), 1e-4).over_darcy).substr(0, 6);
+                    }
+                  catch (const dealii::ExceptionBase &)
+                    {
+                      last = "fails";
+                    }
+                row += " " + last + " |";
+              }
+            std::printf("%s\n", row.c_str());
+            std::fflush(stdout);
+            if (!random && filter == 2.) // that bed is even: no loose rows for a fine mesh to see
+              EXPECT_NEAR(std::stod(last), 1., 0.05) << row;
           }
     }
 }
