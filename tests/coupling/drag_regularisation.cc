@@ -77,7 +77,7 @@ TEST(DragRegularisation, FiniteFromZeroToOneAndTheLawInBeds)
   EXPECT_DOUBLE_EQ(floor->gamma(*law, {0.1, 0., d, 1000., eta}), law->gamma({0.3, 0., d, 1000., eta}));
 }
 
-// With a filter no void fraction is low enough to be treated: all columns would be the same.
+// With a filter, void fractions stay where all treatments are the law itself: only one of them is run then.
 TEST(DragRegularisationValidation, RandomBedAndSquareArray)
 {
   std::printf("square array, resolved: %.3f\n", resolved_over_homogenised());
@@ -106,11 +106,11 @@ TEST(DragRegularisationValidation, RandomBedAndSquareArray)
                     {
                       last = "fails";
                     }
-                row += " " + last + " |";
+                row += (filter == 0. || name == "none" ? " " + last : std::string(" not run")) + " |";
               }
             std::printf("%s\n", row.c_str());
             std::fflush(stdout);
-            if (!random && filter == 2.) // that bed is even: no loose rows for a fine mesh to see
+            if (!random && filter == 2.) // nor sides that are looser than the rest
               EXPECT_NEAR(std::stod(last), 1., 0.05) << row;
           }
     }
