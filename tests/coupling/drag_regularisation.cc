@@ -67,7 +67,9 @@ TEST(DragRegularisation, FiniteFromZeroToOneAndTheLawInBeds)
           EXPECT_LE(gamma, last) << name << ' ' << eps; // the denser, the more
           last = gamma;
           if (eps > 0.35)
-            EXPECT_DOUBLE_EQ(gamma, law->gamma({eps, 0., d, 1000., eta})) << name << ' ' << eps;
+            {
+              EXPECT_DOUBLE_EQ(gamma, law->gamma({eps, 0., d, 1000., eta})) << name << ' ' << eps;
+            }
         }
     }
   const auto               floor = Registry::entries().at("floor").create();
@@ -111,7 +113,9 @@ TEST(DragRegularisationValidation, RandomBedAndSquareArray)
             std::printf("%s\n", row.c_str());
             std::fflush(stdout);
             if (!random && filter == 2.) // nor sides that are looser than the rest
-              EXPECT_NEAR(std::stod(last), 1., 0.05) << row;
+              {
+                EXPECT_NEAR(std::stod(last), 1., 0.05) << row;
+              }
           }
     }
 }
