@@ -456,6 +456,7 @@ namespace alluvium
     counts["contact sub-steps halved"] += contact_report.n_halvings;
     counts["contact sub-steps not converged"] += contact_report.n_unconverged;
     counts["linear iterations"] += coupling.report().n_iterations;
+    counts["fluid steps like the last"] += coupling.report().steady;
     counts["linear solves above the tolerance"] += coupling.report().n_loose;
   }
 
@@ -557,7 +558,7 @@ namespace alluvium
       {
         solver.set_solution(field);
         boundary_conditions.set_time(time);
-        coupling.rebalance(boundary_conditions, grains, parameters.time_step, before);
+        counts["rebalanced flows"] += coupling.rebalance(boundary_conditions, grains, parameters.time_step, before);
       }
     return report.changed;
   }

@@ -383,12 +383,12 @@ namespace alluvium::fluid
 
 
   template <int dim>
-  void FluidSpace<dim>::apply_boundary_values(const BoundaryConditions<dim> &boundary_conditions,
-                                              const Tensor<1, dim>          &hydrostatic_gradient,
-                                              const double                   datum,
-                                              BlockVector                   &field) const
+  template <typename Action>
+  void FluidSpace<dim>::for_each_boundary_value(const BoundaryConditions<dim> &boundary_conditions,
+                                                const Tensor<1, dim>          &hydrostatic_gradient,
+                                                const double                   datum,
+                                                const Action                  &action) const
   {
-    field.zero_out_ghost_values();
     const types::global_dof_index first_pressure = partitioners[0]->size();
     for (const BoundaryDof &b : boundary_dofs)
       {
@@ -396,13 +396,47 @@ namespace alluvium::fluid
         if (b.component == dim)
           {
             if (partitioners[1]->in_local_range(b.dof - first_pressure))
-              field.block(1)(b.dof - first_pressure) = value.value(b.point) - hydrostatic_gradient * b.point - datum;
+              action(1, b.dof - first_pressure, value.value(b.point) - hydrostatic_gradient * b.point - datum);
           }
         else if (partitioners[0]->in_local_range(b.dof))
-          field.block(0)(b.dof) = value.value(b.point, b.component);
+          action(0, b.dof, value.value(b.point, b.component));
       }
+  }
+
+
+  template <int dim>
+  void FluidSpace<dim>::apply_boundary_values(const BoundaryConditions<dim> &boundary_conditions,
+                                              const Tensor<1, dim>          &hydrostatic_gradient,
+                                              const double                   datum,
+                                              BlockVector                   &field) const
+  {
+    field.zero_out_ghost_values();
+    for_each_boundary_value(boundary_conditions,
+                            hydrostatic_gradient,
+                            datum,
+                            [&](const unsigned int block, const types::global_dof_index dof, const double value) {
+                              field.block(block)(dof) = value;
+                            });
     hanging.distribute(field);
     field.update_ghost_values();
+  }
+
+
+  template <int dim>
+  bool FluidSpace<dim>::has_boundary_values(const BoundaryConditions<dim> &boundary_conditions,
+                                            const Tensor<1, dim>          &hydrostatic_gradient,
+                                            const double                   datum,
+                                            const BlockVector             &field) const
+  {
+    int same = 1;
+    for_each_boundary_value(boundary_conditions,
+                            hydrostatic_gradient,
+                            datum,
+                            [&](const unsigned int block, const types::global_dof_index dof, const double value) {
+                              if (field.block(block)(dof) != value)
+                                same = 0;
+                            });
+    return Utilities::MPI::min(same, communicator()) == 1;
   }
 
 

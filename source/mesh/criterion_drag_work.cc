@@ -56,10 +56,7 @@ namespace alluvium::mesh
         for (std::size_t c = 0; c < power.size(); ++c)
           {
             const Box box = box_around(space.cells()[c], space.n_nodes_per_cell());
-            if (power[c] > threshold * mean)
-              marks.add(box, size * context.grain_diameter, Purpose::refine);
-            if (power[c] > hysteresis * threshold * mean)
-              marks.add(box, size * context.grain_diameter, Purpose::coarsen);
+            marks.add_if_above(power[c], threshold * mean, box, size * context.grain_diameter);
           }
         marks.finish(space.communicator());
       }

@@ -34,10 +34,7 @@ namespace alluvium::mesh
           {
             const double speed = std::hypot(grains.vx[i], grains.vy[i]);
             const Box    box = widened({{{grains.x[i], grains.y[i]}}, {{grains.x[i], grains.y[i]}}}, grains.radius[i]);
-            if (speed > scale)
-              marks.add(box, size * context.grain_diameter, Purpose::refine);
-            if (speed > hysteresis * scale)
-              marks.add(box, size * context.grain_diameter, Purpose::coarsen);
+            marks.add_if_above(speed, scale, box, size * context.grain_diameter);
           }
         marks.finish(MPI_COMM_SELF); // all ranks know all grains
       }

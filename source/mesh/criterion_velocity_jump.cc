@@ -56,8 +56,7 @@ namespace alluvium::mesh
               const double error  = estimate[cell->active_cell_index()] / largest;
               const double wanted = data.size * std::sqrt(tolerance / std::max(error, 1e-12));
               const Box    box    = box_around(data, space.n_nodes_per_cell());
-              marks.add(box, wanted, Purpose::refine);
-              marks.add(box, hysteresis * wanted, Purpose::coarsen);
+              marks.add(box, wanted);
             }
         marks.finish(space.communicator());
       }

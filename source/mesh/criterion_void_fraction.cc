@@ -39,10 +39,8 @@ namespace alluvium::mesh
                 low              = std::min(low, eps);
                 high             = std::max(high, eps);
               }
-            const Box    box    = box_around(cell, n);
-            const double wanted = cell.size * change / (high - low + 1e-12);
-            marks.add(box, wanted, Purpose::refine);
-            marks.add(box, hysteresis * wanted, Purpose::coarsen);
+            const Box box = box_around(cell, n);
+            marks.add(box, cell.size * change / (high - low + 1e-12));
           }
         marks.finish(space.communicator());
       }

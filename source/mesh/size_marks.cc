@@ -41,7 +41,23 @@ namespace alluvium::mesh
   }
 
 
-  void SizeMarks::add(const Box &box, const double size, const Purpose purpose)
+  void SizeMarks::add(const Box &box, const double size)
+  {
+    stamp(box, size, Purpose::refine);
+    stamp(box, RefinementCriterion::hysteresis * size, Purpose::coarsen);
+  }
+
+
+  void SizeMarks::add_if_above(const double value, const double threshold, const Box &box, const double size)
+  {
+    if (value > threshold)
+      stamp(box, size, Purpose::refine);
+    if (value > RefinementCriterion::hysteresis * threshold)
+      stamp(box, size, Purpose::coarsen);
+  }
+
+
+  void SizeMarks::stamp(const Box &box, const double size, const Purpose purpose)
   {
     raster[purpose == Purpose::refine ? 0 : 1].stamp(widened(box, half_width * diameter), size);
   }

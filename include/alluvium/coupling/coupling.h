@@ -20,8 +20,9 @@ namespace alluvium::coupling
     double       torque_on_grains = 0., torque_on_fluid = 0.;
     double       momentum_not_received = 0.; // |sum of G (v^{n+1} - v*)|: see add_grain_response() [N/m]
     std::size_t  n_pieces              = 0;
-    unsigned int n_iterations          = 0; // linear, over all sweeps
-    unsigned int n_loose               = 0; // solves that stopped above the tolerance
+    unsigned int n_iterations          = 0;     // linear, over all sweeps
+    bool         steady                = false; // nothing had changed: all is that of the step before
+    unsigned int n_loose               = 0;     // solves that stopped above the tolerance
   };
 
   /**
@@ -42,8 +43,8 @@ namespace alluvium::coupling
     /** The space has been rebuilt. */
     void reinit();
 
-    /** Cut @p grains and find the void fraction; step() does it by itself. */
-    void update_void_fraction(const grains::GrainArrays &grains);
+    /** Cut @p grains and find the void fraction; step() does it by itself. Returns whether they moved. */
+    bool update_void_fraction(const grains::GrainArrays &grains);
 
     /** How far from its centre a grain of @p diameter is spread [m]. */
     double reach(const double diameter) const
@@ -56,7 +57,8 @@ namespace alluvium::coupling
 
     /**
      * Solve the fluid from t^n to t^n + @p dt and fill @p loads. @p boundary_conditions are at the new time. @p fixed
-     * grains neither move nor yield. Collective.
+     * grains neither move nor yield. A step that would be the last one once more, bit by bit, is not computed.
+     * Collective.
      */
     void step(const fluid::BoundaryConditions<dim> &boundary_conditions,
               const grains::GrainArrays            &grains,
@@ -69,9 +71,10 @@ namespace alluvium::coupling
      * The mesh has changed, and the fields were carried over: find those that have on it the acceleration that they
      * had, (solution - @p before)/@p dt, and so the same forces on the grains, which move with their velocities. What
      * interpolation left would pass for an acceleration in the next steps. Boundary conditions are at the present time.
-     * Collective.
+     * Only in a flow that hardly changes in a step, through grains that hardly move: otherwise what changes
+     * in a step would be taken for what the meshes differ in, many times over. Returns whether that is so. Collective.
      */
-    void rebalance(const fluid::BoundaryConditions<dim> &boundary_conditions,
+    bool rebalance(const fluid::BoundaryConditions<dim> &boundary_conditions,
                    const grains::GrainArrays            &grains,
                    const double                          dt,
                    const fluid::BlockVector             &before);
@@ -101,6 +104,20 @@ namespace alluvium::coupling
     OverlapSettings settings;
 
   private:
+    /** All that a step depends on, besides the fluid's state, the pieces and the boundary values. */
+    struct Inputs
+    {
+      double                           dt    = 0.;
+      bool                             fixed = false;
+      std::vector<std::vector<double>> of_grains;
+      std::vector<std::uint8_t>        touched;
+
+      bool operator==(const Inputs &other) const
+      {
+        return dt == other.dt && fixed == other.fixed && of_grains == other.of_grains && touched == other.touched;
+      }
+    };
+
     void find_state(CouplingState &state);
     void solve(const fluid::BoundaryConditions<dim> &boundary_conditions,
                const TimeScheme                     &scheme,
@@ -132,6 +149,9 @@ namespace alluvium::coupling
     fluid::Vector                      eps;
     fluid::BlockVector                 latest_sweep;
     CouplingReport                     last, of_void_fraction;
+    Inputs                             last_inputs;
+    grains::GrainLoads                 last_loads;
+    bool                               still      = false; // the last step left the fluid as it was
     double                             dt_of_step = 0.;
     std::vector<std::array<double, 2>> force, predicted;
     std::vector<double>                drag_means; // sums over each grain's pieces on this rank: A eps, A Re

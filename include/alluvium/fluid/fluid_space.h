@@ -85,6 +85,12 @@ namespace alluvium::fluid
                                const double                   datum,
                                BlockVector                   &field) const;
 
+    /** Has @p field these boundary values already, to the last bit? Collective. */
+    bool has_boundary_values(const BoundaryConditions<dim> &boundary_conditions,
+                             const dealii::Tensor<1, dim>  &hydrostatic_gradient,
+                             const double                   datum,
+                             const BlockVector             &field) const;
+
     /**
      * The prescribed p - rho g.x at one node, the same on all ranks: a datum that spares the linear solver large
      * constants. Zero if no boundary has a pressure. Collective.
@@ -138,6 +144,12 @@ namespace alluvium::fluid
     const Vector &node_volumes() const { return volumes; }
 
   private:
+    /** Call @p action(block, index in the block, value) for all locally owned boundary values. */
+    template <typename Action>
+    void for_each_boundary_value(const BoundaryConditions<dim> &boundary_conditions,
+                                 const dealii::Tensor<1, dim>  &hydrostatic_gradient,
+                                 const double                   datum,
+                                 const Action                  &action) const;
     void make_periodic(const dealii::DoFHandler<dim> &handler, dealii::AffineConstraints<double> &constraints) const;
     void make_constraints(const BoundaryConditions<dim> &boundary_conditions);
     void cache_cells();

@@ -28,6 +28,12 @@ namespace alluvium::fluid
      */
     void begin_step(const BoundaryConditions<dim> &boundary_conditions, const VansProblem<dim> &problem);
 
+    /** Has the solution already the boundary values of the new time, to the last bit? Collective. */
+    bool has_boundary_values(const BoundaryConditions<dim> &boundary_conditions) const
+    {
+      return space->has_boundary_values(boundary_conditions, properties.density * gravity, pressure_datum, iterate);
+    }
+
     /** Assemble and solve with the pieces' present known terms. */
     void solve();
 

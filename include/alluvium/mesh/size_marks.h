@@ -21,8 +21,11 @@ namespace alluvium::mesh
     /** Forget all marks; get ready for those of @p context. */
     void clear(const RefinementContext &context);
 
-    /** Want at most @p size [m] in and around @p box. */
-    void add(const Box &box, const double size, const Purpose purpose);
+    /** Want at most @p size [m] in and around @p box; let go only where less than that would do. */
+    void add(const Box &box, const double size);
+
+    /** Want at most @p size [m] in and around @p box if @p value is above @p threshold; let go below that. */
+    void add_if_above(const double value, const double threshold, const Box &box, const double size);
 
     /** All marks of this rank are there. Collective. */
     void finish(const MPI_Comm communicator);
@@ -33,6 +36,8 @@ namespace alluvium::mesh
     }
 
   private:
+    void stamp(const Box &box, const double size, const Purpose purpose);
+
     double                    half_width = 2., growth = 0.5, diameter = 0.;
     std::array<SizeRaster, 2> raster;
   };
