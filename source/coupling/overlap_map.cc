@@ -5,6 +5,7 @@
 #include <deal.II/base/numbers.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace alluvium::coupling
@@ -13,37 +14,56 @@ namespace alluvium::coupling
 
   namespace
   {
-    /** The grains, and their images beside a periodic box that reach into it. */
+    /**
+     * The grains, and their images that reach into the domain from beside it: shifted by the length of a periodic box,
+     * mirrored at straight sides. What of a grain's disc leaves the domain there comes back in, so that grains which
+     * fill the domain evenly fill it evenly up to its sides.
+     */
     struct GrainImages
     {
-      std::vector<double>       x, y;
-      std::vector<unsigned int> grain; // the one it is an image of
+      std::vector<double>                x, y;
+      std::vector<unsigned int>          grain;  // the one it is an image of
+      std::vector<std::array<double, 2>> offset; // of a mirror image's centre from the grain's [m]
 
-      GrainImages(const std::vector<double>               &grain_x,
-                  const std::vector<double>               &grain_y,
-                  const double                             reach,
-                  const fluid::FluidSpace<2>::PeriodicBox &box)
+      GrainImages(const std::vector<double>                &grain_x,
+                  const std::vector<double>                &grain_y,
+                  const double                              reach,
+                  const fluid::FluidSpace<2>::PeriodicBox  &box,
+                  const std::array<std::vector<double>, 2> &mirrors)
         : x(grain_x)
         , y(grain_y)
         , grain(grain_x.size())
+        , offset(grain_x.size())
       {
         std::iota(grain.begin(), grain.end(), 0u);
         for (unsigned int d = 0; d < 2; ++d)
-          if (box.length[d] > 0.)
-            {
-              const std::size_t n = x.size(); // images of images in the second direction: the corners
-              for (std::size_t k = 0; k < n; ++k)
-                for (const double shift : {-box.length[d], box.length[d]})
+          {
+            const std::size_t n = x.size(); // images of images in the second direction: the corners
+            for (std::size_t k = 0; k < n; ++k)
+              {
+                const double here = d == 0 ? x[k] : y[k];
+                if (box.length[d] > 0.)
                   {
-                    const double moved = (d == 0 ? x[k] : y[k]) + shift;
-                    if (moved > box.lower[d] - reach && moved < box.lower[d] + box.length[d] + reach)
-                      {
-                        x.push_back(d == 0 ? moved : x[k]);
-                        y.push_back(d == 1 ? moved : y[k]);
-                        grain.push_back(grain[k]);
-                      }
+                    for (const double shift : {-box.length[d], box.length[d]})
+                      if (here + shift > box.lower[d] - reach && here + shift < box.lower[d] + box.length[d] + reach)
+                        add(k, d, here + shift, 0.);
                   }
-            }
+                else
+                  for (const double side : mirrors[d])
+                    if (std::abs(here - side) < reach)
+                      add(k, d, 2. * side - here, 2. * (side - here));
+              }
+          }
+      }
+
+    private:
+      void add(const std::size_t k, const unsigned int d, const double moved, const double off)
+      {
+        x.push_back(d == 0 ? moved : x[k]);
+        y.push_back(d == 1 ? moved : y[k]);
+        grain.push_back(grain[k]);
+        offset.push_back(offset[k]);
+        offset.back()[d] += off;
       }
     };
 
@@ -139,6 +159,48 @@ namespace alluvium::coupling
           polygon.vertex[n == 4 && v >= 2 ? 5 - v : v] = {{cell.vertex[v][0], cell.vertex[v][1]}};
         polygons.emplace_back(polygon);
       }
+    find_mirrors();
+  }
+
+
+  void OverlapMap::find_mirrors()
+  {
+    const MPI_Comm                         comm = space->communicator();
+    std::array<std::array<double, 2>, dim> limits; // [direction][low, high]
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        double low = std::numeric_limits<double>::max(), high = -low;
+        for (const auto &cell : space->cells())
+          for (unsigned int v = 0; v < space->n_nodes_per_cell(); ++v)
+            {
+              low  = std::min(low, cell.vertex[v][d]);
+              high = std::max(high, cell.vertex[v][d]);
+            }
+        limits[d] = {{Utilities::MPI::min(low, comm), Utilities::MPI::max(high, comm)}};
+      }
+    // a side of the bounding box is a mirror if the boundary runs along all of it
+    std::array<double, 2 * dim> covered{};
+    for (const auto &cell : space->triangulation().active_cell_iterators())
+      if (cell->is_locally_owned() && cell->at_boundary())
+        for (const auto f : cell->face_indices())
+          if (cell->at_boundary(f))
+            for (unsigned int d = 0; d < dim; ++d)
+              for (unsigned int side = 0; side < 2; ++side)
+                {
+                  const double tolerance = 1e-10 * (limits[d][1] - limits[d][0]);
+                  const auto   face      = cell->face(f);
+                  if (std::abs(face->vertex(0)[d] - limits[d][side]) < tolerance &&
+                      std::abs(face->vertex(1)[d] - limits[d][side]) < tolerance)
+                    covered[2 * d + side] += face->measure();
+                }
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        mirrors[d].clear();
+        const double length = limits[1 - d][1] - limits[1 - d][0];
+        for (unsigned int side = 0; side < 2; ++side)
+          if (Utilities::MPI::sum(covered[2 * d + side], comm) > (1. - 1e-10) * length)
+            mirrors[d].push_back(limits[d][side]);
+      }
   }
 
 
@@ -178,7 +240,7 @@ namespace alluvium::coupling
           position.x[g] = grains.x[g];
           position.y[g] = grains.y[g];
         }
-    const GrainImages images(position.x, position.y, max_radius, box);
+    const GrainImages images(position.x, position.y, max_radius, box, mirrors);
     GrainBins         bins(images.x, images.y, max_radius);
     if (!all)
       {
@@ -187,7 +249,7 @@ namespace alluvium::coupling
             if (moved[now.grain[k]])
               bins.mark(now.x[k], now.y[k]);
         };
-        mark(GrainImages(before.x, before.y, max_radius, box));
+        mark(GrainImages(before.x, before.y, max_radius, box, mirrors));
         mark(images);
       }
 
@@ -214,11 +276,14 @@ namespace alluvium::coupling
             bins.find(low, high, candidates);
             for (const unsigned int k : candidates)
               {
-                const unsigned int      g = images.grain[k];
-                const geometry::Overlap o =
-                  geometry::overlap({{{images.x[k], images.y[k]}}, position.radius[g]}, polygon);
+                const unsigned int g = images.grain[k];
+                geometry::Overlap  o = geometry::overlap({{{images.x[k], images.y[k]}}, position.radius[g]}, polygon);
                 if (o.area > 0.)
-                  add_piece(c, g, o, settings);
+                  {
+                    for (unsigned int d = 0; d < dim; ++d)
+                      o.arm[d] += images.offset[k][d];
+                    add_piece(c, g, o, settings);
+                  }
               }
           }
         else

@@ -1,4 +1,4 @@
-#include <alluvium/mesh/size_marks.h>
+#include <alluvium/mesh/marked_criterion.h>
 #include <alluvium/utilities/plugin.h>
 
 #include <deal.II/base/mpi.h>
@@ -13,9 +13,13 @@ namespace alluvium::mesh
      * Fine where the flow works hardest on the grains. The power per area that drag takes is -u . grad p, p the reduced
      * pressure, wherever the flow is slow enough for drag to balance it.
      */
-    class DragWorkCriterion : public RefinementCriterion
+    class DragWorkCriterion : public MarkedCriterion
     {
     public:
+      DragWorkCriterion()
+        : MarkedCriterion(true)
+      {}
+
       void add_parameters(dealii::ParameterHandler &prm) override
       {
         prm.add_parameter("Cell size",
@@ -30,11 +34,9 @@ namespace alluvium::mesh
         marks.add_parameters(prm, 2.);
       }
 
-      void prepare(const RefinementContext &context) override
+    private:
+      void mark(const RefinementContext &context) override
       {
-        marks.clear(context);
-        if (context.fluid == nullptr)
-          return;
         const fluid::FluidSpace<2> &space = context.fluid->space;
         std::vector<double>         power;
         std::array<double, 2>       sums{}; // power, area
@@ -58,17 +60,8 @@ namespace alluvium::mesh
             const Box box = box_around(space.cells()[c], space.n_nodes_per_cell());
             marks.add_if_above(power[c], threshold * mean, box, size * context.grain_diameter);
           }
-        marks.finish(space.communicator());
       }
 
-      double wanted_size(const Box &box, const RefinementContext &, const Purpose purpose) const override
-      {
-        return marks.wanted_size(box, purpose);
-      }
-
-      bool needs_fluid() const override { return true; }
-
-    private:
       /** |u . grad p| [W/m^2], mean velocity times mean gradient. */
       double power_in(const RefinementContext &context, const fluid::CellData<2> &cell) const
       {
@@ -86,8 +79,7 @@ namespace alluvium::mesh
         return std::abs(u[0] * gradient[0] + u[1] * gradient[1]);
       }
 
-      SizeMarks marks;
-      double    size = 1., threshold = 3.;
+      double size = 1., threshold = 3.;
     };
   } // namespace
 

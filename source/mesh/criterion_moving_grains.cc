@@ -1,4 +1,4 @@
-#include <alluvium/mesh/size_marks.h>
+#include <alluvium/mesh/marked_criterion.h>
 #include <alluvium/utilities/plugin.h>
 
 #include <cmath>
@@ -8,9 +8,13 @@ namespace alluvium::mesh
   namespace
   {
     /** Fine around the grains that move: boils, fingers and slides, and not the bed that still stands. */
-    class MovingGrainsCriterion : public RefinementCriterion
+    class MovingGrainsCriterion : public MarkedCriterion
     {
     public:
+      MovingGrainsCriterion()
+        : MarkedCriterion(false)
+      {}
+
       void add_parameters(dealii::ParameterHandler &prm) override
       {
         prm.add_parameter("Cell size",
@@ -25,9 +29,9 @@ namespace alluvium::mesh
         marks.add_parameters(prm, 4.);
       }
 
-      void prepare(const RefinementContext &context) override
+    private:
+      void mark(const RefinementContext &context) override
       {
-        marks.clear(context);
         const double scale  = threshold * std::sqrt(context.gravity * context.grain_diameter);
         const auto  &grains = *context.grains;
         for (std::size_t i = 0; i < grains.n(); ++i)
@@ -36,17 +40,9 @@ namespace alluvium::mesh
             const Box    box = widened({{{grains.x[i], grains.y[i]}}, {{grains.x[i], grains.y[i]}}}, grains.radius[i]);
             marks.add_if_above(speed, scale, box, size * context.grain_diameter);
           }
-        marks.finish(MPI_COMM_SELF); // all ranks know all grains
       }
 
-      double wanted_size(const Box &box, const RefinementContext &, const Purpose purpose) const override
-      {
-        return marks.wanted_size(box, purpose);
-      }
-
-    private:
-      SizeMarks marks;
-      double    size = 1., threshold = 0.05;
+      double size = 1., threshold = 0.05;
     };
   } // namespace
 

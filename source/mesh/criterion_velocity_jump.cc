@@ -1,4 +1,4 @@
-#include <alluvium/mesh/size_marks.h>
+#include <alluvium/mesh/marked_criterion.h>
 #include <alluvium/utilities/plugin.h>
 
 #include <deal.II/base/mpi.h>
@@ -17,9 +17,13 @@ namespace alluvium::mesh
      * The estimator of Kelly et al. (1983) for the velocity: jumps of its gradient over the faces. With linear elements
      * it falls like h^2 where the velocity is smooth, so the size that meets a tolerance is h sqrt(tolerance/estimate).
      */
-    class VelocityJumpCriterion : public RefinementCriterion
+    class VelocityJumpCriterion : public MarkedCriterion
     {
     public:
+      VelocityJumpCriterion()
+        : MarkedCriterion(true)
+      {}
+
       void add_parameters(dealii::ParameterHandler &prm) override
       {
         prm.add_parameter("Tolerance",
@@ -30,11 +34,9 @@ namespace alluvium::mesh
         marks.add_parameters(prm, 0.);
       }
 
-      void prepare(const RefinementContext &context) override
+    private:
+      void mark(const RefinementContext &context) override
       {
-        marks.clear(context);
-        if (context.fluid == nullptr)
-          return;
         const fluid::FluidSpace<2> &space    = context.fluid->space;
         const auto                 &velocity = context.fluid->solution.block(0);
         const double largest = dealii::Utilities::MPI::max(largest_entry(velocity), space.communicator());
@@ -58,17 +60,8 @@ namespace alluvium::mesh
               const Box    box    = box_around(data, space.n_nodes_per_cell());
               marks.add(box, wanted);
             }
-        marks.finish(space.communicator());
       }
 
-      double wanted_size(const Box &box, const RefinementContext &, const Purpose purpose) const override
-      {
-        return marks.wanted_size(box, purpose);
-      }
-
-      bool needs_fluid() const override { return true; }
-
-    private:
       static double largest_entry(const fluid::Vector &vector)
       {
         double result = 0.;
@@ -77,8 +70,7 @@ namespace alluvium::mesh
         return result;
       }
 
-      SizeMarks marks;
-      double    tolerance = 0.02;
+      double tolerance = 0.02;
     };
   } // namespace
 

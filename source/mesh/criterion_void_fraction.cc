@@ -1,4 +1,4 @@
-#include <alluvium/mesh/size_marks.h>
+#include <alluvium/mesh/marked_criterion.h>
 #include <alluvium/utilities/plugin.h>
 
 #include <cmath>
@@ -8,9 +8,13 @@ namespace alluvium::mesh
   namespace
   {
     /** As fine as it takes to let the void fraction change by little over a cell. */
-    class VoidFractionCriterion : public RefinementCriterion
+    class VoidFractionCriterion : public MarkedCriterion
     {
     public:
+      VoidFractionCriterion()
+        : MarkedCriterion(true)
+      {}
+
       void add_parameters(dealii::ParameterHandler &prm) override
       {
         prm.add_parameter("Change",
@@ -22,11 +26,9 @@ namespace alluvium::mesh
         marks.add_parameters(prm, 1.);
       }
 
-      void prepare(const RefinementContext &context) override
+    private:
+      void mark(const RefinementContext &context) override
       {
-        marks.clear(context);
-        if (context.fluid == nullptr)
-          return;
         const fluid::FluidSpace<2> &space = context.fluid->space;
         const unsigned int          n     = space.n_nodes_per_cell();
         for (const auto &cell : space.cells())
@@ -42,19 +44,9 @@ namespace alluvium::mesh
             const Box box = box_around(cell, n);
             marks.add(box, cell.size * change / (high - low + 1e-12));
           }
-        marks.finish(space.communicator());
       }
 
-      double wanted_size(const Box &box, const RefinementContext &, const Purpose purpose) const override
-      {
-        return marks.wanted_size(box, purpose);
-      }
-
-      bool needs_fluid() const override { return true; }
-
-    private:
-      SizeMarks marks;
-      double    change = 0.1;
+      double change = 0.1;
     };
   } // namespace
 

@@ -25,8 +25,9 @@ namespace bed
     double              width, height, d; // [m]
   };
 
-  /** @p layers of a settled bed of discs 0.2 to 0.24 mm, @p across grains wide, with packing 0.52 for the fluid. */
-  inline Bed random_bed(const unsigned int seed, const double across = 30., const double layers = 20.)
+  /** @p layers of a settled bed of discs 0.2 to 0.24 mm, @p across grains wide, with @p packing for the fluid. */
+  inline Bed
+  random_bed(const unsigned int seed, const double across = 30., const double layers = 20., const double packing = 0.52)
   {
     using Registry           = alluvium::Registry<grains::Deposit>;
     auto             deposit = Registry::entries().at("settled bed").create();
@@ -56,7 +57,7 @@ namespace bed
           g.radius.back() = s.radius;
           area += numbers::PI * s.radius * s.radius;
         }
-    const double factor = std::sqrt(0.52 * width * b.height / area);
+    const double factor = std::sqrt(packing * width * b.height / area);
     for (std::size_t i = 0; i < b.grains.n(); ++i)
       {
         b.grains.fluid_radius[i] = factor * b.grains.radius[i];
@@ -78,6 +79,7 @@ namespace bed
     double      added_mass = 0.;
     bool        convection = true;
     bool        rotation   = false;
+    bool        graded     = false; // h only at half the height, up to 8 d elsewhere
   };
 
   /** A coupled fluid on a uniform mesh over a rectangle: slip sides, pressures below and above. */
@@ -98,6 +100,8 @@ namespace bed
           GridGenerator::subdivided_hyper_rectangle(quads, n, Point<2>(), Point<2>(width, height), true);
           GridGenerator::convert_hypercube_to_simplex_mesh(quads, tria_simplex);
         }
+      else if (s.graded)
+        make_graded(width, height, h, 8. * h / s.h_over_d);
       else
         GridGenerator::subdivided_hyper_rectangle(tria, n, Point<2>(), Point<2>(width, height), true);
       const auto constant = [](const double p) { return std::make_shared<Functions::ConstantFunction<2>>(p); };
@@ -117,6 +121,29 @@ namespace bed
       bc.set(3, {Kind::pressure, "top", constant(0.)});
       settings = s;
       initialize();
+    }
+
+    /** Cells of about @p h at half the height, as large as half the distance to it elsewhere, but not above @p max. */
+    void make_graded(const double width, const double height, const double h, const double max)
+    {
+      unsigned int levels = 0;
+      while (h * (2 << levels) <= max)
+        ++levels;
+      const double coarse = h * (1 << levels);
+      GridGenerator::subdivided_hyper_rectangle(
+        tria,
+        {static_cast<unsigned int>(std::round(width / coarse)), static_cast<unsigned int>(std::round(height / coarse))},
+        Point<2>(),
+        Point<2>(width, height),
+        true);
+      for (; levels > 0; --levels)
+        {
+          for (const auto &cell : tria.active_cell_iterators())
+            if (cell->is_locally_owned() &&
+                cell->extent_in_direction(1) > 0.5 * std::abs(cell->center()[1] - 0.5 * height))
+              cell->set_refine_flag();
+          tria.execute_coarsening_and_refinement();
+        }
     }
 
     void initialize()
@@ -140,6 +167,19 @@ namespace bed
       solver.reinit();
       solver.choose_datum(bc);
       coupling.reinit();
+    }
+
+    /** Largest minus smallest reduced pressure [Pa]. */
+    double pressure_range() const
+    {
+      const auto &p   = solver.solution().block(1);
+      double      low = std::numeric_limits<double>::max(), high = -low;
+      for (const double value : p)
+        {
+          low  = std::min(low, value);
+          high = std::max(high, value);
+        }
+      return Utilities::MPI::max(high, MPI_COMM_WORLD) - Utilities::MPI::min(low, MPI_COMM_WORLD);
     }
 
     void step(const grains::GrainArrays &g, const bool fixed)
@@ -181,6 +221,7 @@ namespace bed
   struct Flux
   {
     double over_darcy, u_max_over_superficial, third_law, imbalance;
+    double pressure_range; // largest minus smallest reduced pressure over what is imposed
   };
 
   /** Stationary flux through the fixed @p bed under a head of @p gradient times its height. */
@@ -202,6 +243,7 @@ namespace bed
     return {flux / exact,
             channel.solver.solution().block(0).linfty_norm() * bed.width / exact,
             std::abs(report.force_on_grains[1] + report.force_on_fluid[1]) / report.force_scale,
-            (flux + channel.solver.flux(2)) / flux};
+            (flux + channel.solver.flux(2)) / flux,
+            channel.pressure_range() / pressure};
   }
 } // namespace bed

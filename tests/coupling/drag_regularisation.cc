@@ -112,9 +112,9 @@ TEST(DragRegularisationValidation, RandomBedAndSquareArray)
               }
             std::printf("%s\n", row.c_str());
             std::fflush(stdout);
-            if (!random && filter == 2.) // nor sides that are looser than the rest
+            if (!random && filter == 2.) // what is left is viscosity at the discs' edges, see doc/drag.md
               {
-                EXPECT_NEAR(std::stod(last), 1., 0.05) << row;
+                EXPECT_NEAR(std::stod(last), 1., 0.06) << row;
               }
           }
     }

@@ -24,7 +24,7 @@ TEST(FixedBed, FluxIsDarcys)
   for (const double h : {8., 4., 2., 1., 0.5})
     {
       const auto flux = bed::fixed_bed_flux(b, with(h));
-      EXPECT_NEAR(flux.over_darcy, 1., 0.02) << "h/d " << h;
+      EXPECT_NEAR(flux.over_darcy, 1., 0.01) << "h/d " << h;
       EXPECT_NEAR(flux.imbalance, 0., 1e-5) << "h/d " << h;
       EXPECT_LT(flux.third_law, 1e-12) << "h/d " << h;
     }
@@ -38,9 +38,91 @@ TEST(FixedBed, FluxIsDarcysOnTriangles)
       Settings s      = with(h);
       s.triangles     = true;
       const auto flux = bed::fixed_bed_flux(b, s);
-      EXPECT_NEAR(flux.over_darcy, 1., 0.02) << "h/d " << h;
+      EXPECT_NEAR(flux.over_darcy, 1., 0.01) << "h/d " << h;
       EXPECT_LT(flux.third_law, 1e-12) << "h/d " << h;
     }
+}
+
+TEST(FixedBed, SidesAndSeamsGiveTheSameFlux)
+{
+  // a small bed, where what happens along the sides matters
+  const bed::Bed b = bed::random_bed(1, 16., 12.);
+  for (const double h : {2., 0.5})
+    {
+      Settings   s     = with(h);
+      const auto sides = bed::fixed_bed_flux(b, s, 0.02);
+      s.periodic       = true;
+      EXPECT_NEAR(sides.over_darcy, bed::fixed_bed_flux(b, s, 0.02).over_darcy, 0.01) << "h/d " << h;
+    }
+}
+
+// Every mesh size, packing and kind of mesh; extremes over five beds.
+TEST(FixedBedValidation, FiveSeedsAllMeshes)
+{
+  std::printf("| packing | mesh | h/d | least flux | largest | largest velocity / U | pressure range / imposed "
+              "|\n|---|---|---|---|---|---|---|\n");
+  for (const double packing : {0.52, 0.45})
+    {
+      std::vector<bed::Bed> beds;
+      for (unsigned int seed = 1; seed <= 5; ++seed)
+        beds.push_back(bed::random_bed(seed, 45., 30., packing));
+      for (const std::string mesh : {"uniform", "graded", "triangles"})
+        for (const double h : {8., 4., 2., 1., 0.5, 0.25})
+          {
+            Settings s     = with(h);
+            s.graded       = mesh == "graded";
+            s.triangles    = mesh == "triangles";
+            double     low = 10., high = 0., u_max = 0., range = 0.;
+            const auto expect = [&](const bool holds) { EXPECT_TRUE(holds) << mesh << ", h/d " << h; };
+            for (const bed::Bed &b : beds)
+              {
+                const auto flux = bed::fixed_bed_flux(b, s, 0.02);
+                low             = std::min(low, flux.over_darcy);
+                high            = std::max(high, flux.over_darcy);
+                u_max           = std::max(u_max, flux.u_max_over_superficial);
+                range           = std::max(range, flux.pressure_range);
+              }
+            std::printf(
+              "| %g | %s | %g | %.4f | %.4f | %.2f | %.4f |\n", packing, mesh.c_str(), h, low, high, u_max, range);
+            std::fflush(stdout);
+            const double tolerance = h < 0.5 ? 0.03 : 0.01;
+            expect(low > 1. - tolerance && high < 1. + tolerance);
+            expect(u_max < 8.);
+            expect(range < 1.01);
+          }
+    }
+}
+
+// The stabilisation knows of the time step; the stationary flux should not.
+TEST(FixedBedValidation, TimeSteps)
+{
+  const bed::Bed            b  = bed::random_bed(1, 45., 30.);
+  const std::vector<double> dt = {1e-4, 1e-3, 1e-2, 1e-1};
+  std::printf("| filter | h/d | dt 1e-4 | 1e-3 | 1e-2 | 1e-1 |\n|---|---|---|---|---|---|\n");
+  for (const double filter : {2., 0.})
+    for (const double h : {4., 1., 0.5, 0.25})
+      {
+        if (filter == 0. && h < 0.5)
+          continue;
+        Settings s = with(h);
+        s.filter   = filter;
+        double low = 10., high = 0.;
+        std::printf("| %s | %g |", filter > 0. ? "2 d" : "grain", h);
+        for (const double step : dt)
+          {
+            s.dt              = step;
+            const double flux = bed::fixed_bed_flux(b, s, 0.02).over_darcy;
+            low               = std::min(low, flux);
+            high              = std::max(high, flux);
+            std::printf(" %.4f |", flux);
+          }
+        std::printf("\n");
+        std::fflush(stdout);
+        if (filter > 0.)
+          {
+            EXPECT_LT(high - low, 0.01) << "h/d " << h;
+          }
+      }
 }
 
 // Three beds, all mesh sizes; the paper's own settings beside ours, whatever they give.
@@ -71,7 +153,7 @@ TEST(FixedBedValidation, ThreeSeedsAllSizes)
             }
           std::printf("\n");
           std::fflush(stdout);
-          EXPECT_NEAR(ours.over_darcy, 1., h < 0.5 ? 0.05 : 0.02) << "h/d " << h;
+          EXPECT_NEAR(ours.over_darcy, 1., h < 0.5 ? 0.03 : 0.01) << "h/d " << h;
         }
     }
 }

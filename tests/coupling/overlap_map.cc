@@ -71,6 +71,25 @@ namespace
     EXPECT_GT(map.grain().size(), n);
   }
 
+  TEST(OverlapMap, EvenGrainsAreEvenUpToTheSides)
+  {
+    // a square array with a node midway between any four grains
+    Bed bed;
+    bed.d = 2.2e-4;
+    bed.grains.resize(64);
+    for (std::size_t k = 0; k < 64; ++k)
+      {
+        bed.grains.id[k]     = k;
+        bed.grains.x[k]      = (0.5 + k % 8) * bed.d;
+        bed.grains.y[k]      = (0.5 + k / 8) * bed.d;
+        bed.grains.radius[k] = bed.grains.fluid_radius[k] = 0.4 * bed.d;
+      }
+    Channel channel(8. * bed.d, 8. * bed.d, bed.d, {}, 0.);
+    channel.coupling.update_void_fraction(bed.grains);
+    for (const double eps : channel.coupling.void_fraction())
+      EXPECT_NEAR(eps, 1. - 0.16 * M_PI, 1e-12);
+  }
+
   TEST(OverlapMap, KeepsThePiecesOfGrainsThatStand)
   {
     keeps_what_stands(false);

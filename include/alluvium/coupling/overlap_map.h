@@ -72,6 +72,8 @@ namespace alluvium::coupling
     void sum_over_ranks(std::vector<double> &per_grain) const;
 
   private:
+    /** Find the sides of the domain's bounding box along which its boundary runs from end to end. */
+    void find_mirrors();
     /** Bring @p position up to date; which grains moved. */
     std::vector<std::uint8_t> find_moved(const grains::GrainArrays &grains, const OverlapSettings &settings);
     void                      add_piece(const unsigned int       cell,
@@ -81,6 +83,7 @@ namespace alluvium::coupling
 
     const fluid::FluidSpace<dim>          *space;
     std::vector<geometry::PreparedPolygon> polygons;
+    std::array<std::vector<double>, dim>   mirrors; // [direction]: where the straight sides are [m]
     fluid::InterphaseTerms<dim>            pieces;
     std::vector<unsigned int>              grain_of_piece;
     std::vector<PieceArm>                  arm_of_piece;
