@@ -39,8 +39,12 @@ namespace alluvium::coupling
       "Overlap rule",
       rule_text,
       "How shape functions are integrated over the pieces of a grain: `centroid` (the paper: at the piece's centroid, "
-      "exact for linear functions) or `moments` (with second moments: exact for bilinear functions on parallelograms).",
-      Patterns::Selection("centroid|moments"));
+      "exact for linear functions), `moments` (with second moments: exact for bilinear functions on parallelograms) "
+      "or, "
+      "for comparison only, `centre` (a grain is spread evenly over the cell that has its centre, and jumps from cell "
+      "to "
+      "cell; there is no filter).",
+      Patterns::Selection("centroid|moments|centre"));
     prm.add_parameter("Overlap tolerance",
                       settings.tolerance,
                       "A grain that has moved by less than this times its diameter keeps its pieces; in a bed at rest "
@@ -98,7 +102,9 @@ namespace alluvium::coupling
       "such as `semi-implicit per grain`; '" +
         scheme_choice.name() + "' does not.");
     settings.keep_arms = rotation;
-    settings.rule      = rule_text == "centroid" ? OverlapSettings::Rule::centroid : OverlapSettings::Rule::moments;
+    settings.rule      = rule_text == "centroid" ? OverlapSettings::Rule::centroid
+                         : rule_text == "centre" ? OverlapSettings::Rule::centre
+                                                 : OverlapSettings::Rule::moments;
   }
 
 

@@ -137,6 +137,17 @@ namespace alluvium::coupling
       std::vector<unsigned int> begin, member;
       std::vector<std::uint8_t> marked;
     };
+
+    /** The whole cell as the piece of a disc with its centre in it, on its edges too; else nothing. */
+    geometry::Overlap cell_of_centre(const geometry::Point2 &centre, const geometry::PreparedPolygon &cell)
+    {
+      for (unsigned int i = 0; i < 4; ++i)
+        if (cell.tangent_x[i] * (centre[1] - cell.y[i]) - cell.tangent_y[i] * (centre[0] - cell.x[i]) <
+            -1e-12 * std::sqrt(cell.area))
+          return {};
+      const geometry::Point2 centroid = {{cell.x[0] + cell.centroid_offset[0], cell.y[0] + cell.centroid_offset[1]}};
+      return {cell.area, centroid, cell.second_moments, {{centroid[0] - centre[0], centroid[1] - centre[1]}}};
+    }
   } // namespace
 
 
@@ -276,8 +287,11 @@ namespace alluvium::coupling
             bins.find(low, high, candidates);
             for (const unsigned int k : candidates)
               {
-                const unsigned int g = images.grain[k];
-                geometry::Overlap  o = geometry::overlap({{{images.x[k], images.y[k]}}, position.radius[g]}, polygon);
+                const unsigned int     g      = images.grain[k];
+                const geometry::Point2 centre = {{images.x[k], images.y[k]}};
+                geometry::Overlap      o      = settings.rule == OverlapSettings::Rule::centre
+                                                  ? cell_of_centre(centre, polygon)
+                                                  : geometry::overlap({centre, position.radius[g]}, polygon);
                 if (o.area > 0.)
                   {
                     for (unsigned int d = 0; d < dim; ++d)
@@ -321,7 +335,7 @@ namespace alluvium::coupling
                              const geometry::Overlap &o,
                              const OverlapSettings   &settings)
   {
-    const bool                  moments = settings.rule == OverlapSettings::Rule::moments;
+    const bool                  moments = settings.rule != OverlapSettings::Rule::centroid;
     const fluid::CellData<dim> &data    = space->cells()[cell];
     fluid::PieceShape<dim>      s{};
     s.area           = o.area;

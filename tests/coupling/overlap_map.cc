@@ -99,4 +99,31 @@ namespace
   {
     keeps_what_stands(true);
   }
+
+  // for comparison: all of a grain in the cell of its centre, shared where the centre is on a face
+  TEST(OverlapMap, CentreRule)
+  {
+    Bed      bed = random_bed(1, 20., 10.);
+    Settings settings;
+    settings.h_over_d = 4.;
+    Channel              channel(bed.width, bed.height, 4. * bed.d, settings, 0.);
+    coupling::OverlapMap map(channel.space);
+    map.reinit();
+    const auto &first = channel.space.cells()[0].vertex;
+    bed.grains.x[0]   = first[1][0]; // between two cells
+    bed.grains.y[0]   = 0.5 * (first[0][1] + first[2][1]);
+    auto rule         = channel.coupling.settings;
+    rule.rule         = coupling::OverlapSettings::Rule::centre;
+    map.cut(bed.grains, rule);
+    EXPECT_EQ(map.terms().n_pieces(), bed.grains.n() + 1);
+    std::vector<double> area(bed.grains.n(), 0.);
+    for (std::size_t k = 0; k < map.terms().n_pieces(); ++k)
+      {
+        area[map.grain()[k]] += map.terms().shape[k].area;
+        for (const double phi : map.terms().shape[k].phi)
+          EXPECT_NEAR(phi, 0.25, 1e-12);
+      }
+    for (std::size_t g = 0; g < bed.grains.n(); ++g)
+      EXPECT_NEAR(area[g] / (numbers::PI * std::pow(bed.grains.fluid_radius[g], 2)), 1., 1e-13);
+  }
 } // namespace

@@ -127,6 +127,7 @@ TEST(SmoothnessValidation, Series)
         const auto force = drag_along(box, 0.02, 4.);
         const auto mean  = smoothness(force).mean;
         for (std::size_t k = 0; k < force.size(); ++k)
-          std::printf("series %g %g %g %.6f\n", h, filter, 1. + 0.02 * k, force[k].norm() / mean);
+          std::printf(
+            "series h/d %g, R = %s, %g %.6f\n", h, filter > 0. ? "2 d" : "r", 1. + 0.02 * k, force[k].norm() / mean);
       }
 }

@@ -13,7 +13,8 @@ namespace alluvium::coupling
     enum class Rule
     {
       centroid, // shape functions at the piece's centroid (the paper): exact for linear functions
-      moments   // with second moments: exact for Q1 on parallelograms
+      moments,  // with second moments: exact for Q1 on parallelograms
+      centre    // all of a grain evenly in the cell that has its centre, whatever the filter: jumps from cell to cell
     };
     double filter_radius = 2.; // in contact diameters; 0: the grain's own fluid radius
     Rule   rule          = Rule::moments;
