@@ -1,0 +1,88 @@
+#include <alluvium/coupling/homogeneous_bed.h>
+#include <alluvium/observers/observer.h>
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/parameter_handler.h>
+
+#include <cmath>
+#include <limits>
+
+namespace alluvium::observers
+{
+  namespace
+  {
+    /**
+     * Hindered settling, to be compared with the drag law. In a homogeneous suspension without net flux the pressure
+     * gradient carries the mixture, so that gamma w = eps (rho_p - rho) g for the slip w, and grains sink with eps w:
+     * the superficial velocity that would fluidise them.
+     */
+    class Settling : public Observer
+    {
+    public:
+      void add_parameters(dealii::ParameterHandler &prm) override
+      {
+        prm.add_parameter("Bottom", bottom, "Only grains with their centre above are looked at [m].");
+        prm.add_parameter("Top", top, "Only grains with their centre below are looked at [m].");
+      }
+
+      bool applies(const Snapshot &s) const override { return s.fluid && std::hypot(s.gravity[0], s.gravity[1]) > 0.; }
+
+      void add_columns(const Snapshot &, Statistics &statistics) override
+      {
+        check_user(top > bottom,
+                   "Output/Observers: settling: 'Bottom' and 'Top' must be the ends of a range of heights [m]: " +
+                     std::to_string(bottom) + " and " + std::to_string(top) + " are not.");
+        for (const auto *name : {"settling_speed_m_per_s",
+                                 "settling_speed_over_drag_law",
+                                 "settling_speed_rms_m_per_s",
+                                 "sideways_speed_rms_m_per_s",
+                                 "settling_packing_fraction"})
+          statistics.add_column(name);
+      }
+
+      void write(const Snapshot &s, Statistics &statistics) override
+      {
+        const auto         &g    = s.grains;
+        const double        size = std::hypot(s.gravity[0], s.gravity[1]);
+        grains::GrainArrays inside;
+        double              volume = 0., mean = 0., square = 0., sideways = 0.;
+        for (std::size_t i = 0; i < g.n(); ++i)
+          if (g.y[i] > bottom && g.y[i] < top)
+            {
+              const double down   = (g.vx[i] * s.gravity[0] + g.vy[i] * s.gravity[1]) / size,
+                           across = (g.vx[i] * s.gravity[1] - g.vy[i] * s.gravity[0]) / size,
+                           v      = dealii::numbers::PI * g.fluid_radius[i] * g.fluid_radius[i];
+              inside.resize(inside.n() + 1);
+              inside.fluid_radius.back() = g.fluid_radius[i];
+              inside.mass.back()         = g.mass[i];
+              volume += v;
+              mean += v * down;
+              square += v * down * down;
+              sideways += v * across * across;
+            }
+        if (inside.n() == 0)
+          return;
+        mean /= volume;
+        const double packing = volume / ((s.right - s.left) * (top - bottom));
+        const double law =
+          coupling::HomogeneousBed{inside, s.fluid->solver.properties, 1. - packing}.fluidisation_velocity(
+            s.fluid->coupling.drag_law(), size);
+        statistics.set("settling_speed_m_per_s", mean);
+        statistics.set("settling_speed_over_drag_law",
+                       law > 0. ? mean / law : std::numeric_limits<double>::quiet_NaN());
+        statistics.set("settling_speed_rms_m_per_s", std::sqrt(std::max(0., square / volume - mean * mean)));
+        statistics.set("sideways_speed_rms_m_per_s", std::sqrt(sideways / volume));
+        statistics.set("settling_packing_fraction", packing);
+      }
+
+    private:
+      double bottom = 0., top = 1.;
+    };
+  } // namespace
+
+  ALLUVIUM_REGISTER_OBSERVER(
+    Settling,
+    "settling",
+    "Mean speed at which the grains of a range of heights sink, its fluctuations, and what the "
+    "drag law makes of it in a homogeneous suspension without net flux.")
+} // namespace alluvium::observers
