@@ -1,6 +1,7 @@
 #include <alluvium/fluid/linear_solver.h>
 #include <alluvium/utilities/user_error.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/lac/solver_gmres.h>
 #include <deal.II/lac/trilinos_vector.h>
@@ -8,6 +9,7 @@
 #include <EpetraExt_MatrixMatrix.h>
 #include <Epetra_CrsMatrix.h>
 
+#include <numeric>
 #include <sstream>
 
 namespace alluvium::fluid
@@ -16,7 +18,10 @@ namespace alluvium::fluid
 
   namespace
   {
+    constexpr int    dim                 = 2;
     constexpr double acceptable_residual = 1e-5;
+    // of a diagonal entry of the velocity block over its row sum, above which ILU(0) needs too many iterations
+    constexpr double diffusive_ratio = 20.;
 
     std::string in_digits(const double x)
     {
@@ -38,26 +43,28 @@ namespace alluvium::fluid
       }
     };
 
-    /** SIMPLE: u* = A^-1 r_u, p = S^-1 (r_p - C u*), u = u* - diag(A)^-1 B p, with ILU and a V-cycle as the inverses.
-     */
-    struct Simple
+    /** The factors of LinearSolver's preconditioner, applied one after the other. */
+    struct BlockFactors
     {
       const TrilinosWrappers::BlockSparseMatrix &matrix;
-      const TrilinosWrappers::PreconditionILU   &velocity;
+      const TrilinosWrappers::PreconditionBase  &first_velocity, &last_velocity;
       const TrilinosWrappers::PreconditionAMG   &pressure;
-      const std::vector<double>                 &inverse_diagonal; // of -A
+      const std::vector<double>                 &mobility;
       double                                     scale;
       mutable BlockVector                        r;
+      mutable Vector                             correction;
 
       void vmult(BlockVector &dst, const BlockVector &src) const
       {
-        velocity.vmult(dst.block(0), src.block(0));
+        first_velocity.vmult(dst.block(0), src.block(0));
         matrix.block(1, 0).vmult(r.block(1), dst.block(0));
         r.block(1).sadd(-1., 1. / scale, src.block(1));
         pressure.vmult(dst.block(1), r.block(1));
+        for (unsigned int i = 0; i < mobility.size(); ++i)
+          dst.block(1).local_element(i) += mobility[i] * r.block(1).local_element(i);
         matrix.block(0, 1).vmult(r.block(0), dst.block(1));
-        for (unsigned int i = 0; i < inverse_diagonal.size(); ++i)
-          dst.block(0).local_element(i) += inverse_diagonal[i] * r.block(0).local_element(i);
+        last_velocity.vmult(correction, r.block(0));
+        dst.block(0) -= correction;
       }
     };
   } // namespace
@@ -88,6 +95,7 @@ namespace alluvium::fluid
   {
     exists = strong = false;
     velocity.clear();
+    coarse_velocity.clear();
     pressure.clear();
     schur.reset();
   }
@@ -95,19 +103,45 @@ namespace alluvium::fluid
 
   void LinearSolver::build(const TrilinosWrappers::BlockSparseMatrix &matrix)
   {
-    const auto &A = matrix.block(0, 0);
+    const auto             &A    = matrix.block(0, 0);
+    const Epetra_CrsMatrix &rows = A.trilinos_matrix();
     velocity.initialize(A, TrilinosWrappers::PreconditionILU::AdditionalData(strong ? 2 : 0));
 
-    negative_inverse_diagonal.clear();
-    TrilinosWrappers::MPI::Vector inverse_diagonal(A.locally_owned_range_indices(), A.get_mpi_communicator());
-    for (const auto i : A.locally_owned_range_indices())
+    // row sums; convection can turn the sign of those next to walls, whose columns are missing
+    TrilinosWrappers::MPI::Vector negative_inverse_sums(A.locally_owned_range_indices(), A.get_mpi_communicator());
+    double                        largest_ratio = 0.;
+    for (int i = 0; i < rows.NumMyRows(); ++i)
       {
-        negative_inverse_diagonal.push_back(-1. / A.diag_element(i));
-        inverse_diagonal(i) = negative_inverse_diagonal.back();
+        const types::global_dof_index row    = rows.GRID64(i);
+        const double                  volume = scales.volumes.block(0).local_element(i);
+        int                           n      = 0;
+        double                       *value  = nullptr;
+        rows.ExtractMyRowView(i, n, value);
+        const double sum           = std::max(std::accumulate(value, value + n, 0.), 0.1 * scales.inertia * volume);
+        negative_inverse_sums(row) = -1. / sum;
+        largest_ratio              = std::max(largest_ratio, A.diag_element(row) / sum);
       }
-    inverse_diagonal.compress(VectorOperation::insert);
+    negative_inverse_sums.compress(VectorOperation::insert);
+    diffusive = !strong && Utilities::MPI::max(largest_ratio, A.get_mpi_communicator()) > diffusive_ratio;
+    if (diffusive)
+      {
+        TrilinosWrappers::PreconditionAMG::AdditionalData data;
+        data.elliptic              = true;
+        data.higher_order_elements = false;
+        data.smoother_type         = "symmetric Gauss-Seidel";
+        data.smoother_sweeps       = 1;
+        data.aggregation_threshold = 0.02;
+        data.constant_modes.assign(dim, std::vector<bool>(rows.NumMyRows(), false));
+        for (int i = 0; i < rows.NumMyRows(); ++i)
+          data.constant_modes[i % dim][i] = true; // components are interleaved
+        coarse_velocity.initialize(A, data);
+      }
+
+    mobility.clear();
+    for (unsigned int i = 0; i < scales.volumes.block(1).locally_owned_size(); ++i)
+      mobility.push_back(scales.viscosity / scales.volumes.block(1).local_element(i));
     TrilinosWrappers::SparseMatrix product;
-    matrix.block(1, 0).mmult(product, matrix.block(0, 1), inverse_diagonal);
+    matrix.block(1, 0).mmult(product, matrix.block(0, 1), negative_inverse_sums);
     // the union of both patterns: rows of prescribed pressures have no entry in C B
     Epetra_CrsMatrix *sum = nullptr;
     EpetraExt::MatrixMatrix::Add(
@@ -119,7 +153,8 @@ namespace alluvium::fluid
     TrilinosWrappers::PreconditionAMG::AdditionalData data;
     data.elliptic              = true;
     data.higher_order_elements = false;
-    data.smoother_sweeps       = 2;
+    data.smoother_type         = "ILU";
+    data.smoother_sweeps       = 1;
     data.aggregation_threshold = 0.02;
     pressure.initialize(*schur, data);
     exists = true;
@@ -152,8 +187,10 @@ namespace alluvium::fluid
         typename SolverGMRES<BlockVector>::AdditionalData data;
         data.max_n_tmp_vectors     = strong ? 150 : 60;
         data.right_preconditioning = true;
-        SolverGMRES<BlockVector> gmres(control, data);
-        const Simple             preconditioner{matrix, velocity, pressure, negative_inverse_diagonal, ratio, rhs};
+        SolverGMRES<BlockVector>                  gmres(control, data);
+        const TrilinosWrappers::PreconditionBase &first =
+          diffusive ? static_cast<const TrilinosWrappers::PreconditionBase &>(coarse_velocity) : velocity;
+        const BlockFactors preconditioner{matrix, first, velocity, pressure, mobility, ratio, rhs, rhs.block(0)};
         x     = 0.;
         retry = false;
         try

@@ -40,6 +40,17 @@ namespace alluvium::fluid
   {
     assembler.reinit();
     linear_solver.clear();
+    auto &volumes = linear_solver.scales.volumes;
+    volumes       = space->make_field();
+    for (const CellData<dim> &cell : space->cells())
+      for (unsigned int v = 0; v < space->n_nodes_per_cell(); ++v)
+        {
+          const double share = cell.measure / space->n_nodes_per_cell();
+          volumes.block(1).local_element(cell.pressure[v]) += share;
+          for (unsigned int d = 0; d < dim; ++d)
+            volumes.block(0).local_element(cell.velocity[v][d]) += share;
+        }
+    volumes.compress(VectorOperation::add);
     iterate   = space->make_field();
     previous  = space->make_field();
     residual  = space->make_field();
@@ -70,6 +81,8 @@ namespace alluvium::fluid
         linear_solver.clear();
         dt_of_preconditioner = current.dt;
       }
+    linear_solver.scales.inertia   = properties.density / current.dt;
+    linear_solver.scales.viscosity = properties.viscosity;
     space->apply_boundary_values(boundary_conditions, properties.density * gravity, pressure_datum, iterate);
   }
 
@@ -142,7 +155,7 @@ namespace alluvium::fluid
     const double flux_per_force = current.dt / (properties.density * length);
     if (scale[0] == 0.)
       scale[0] = residual.block(1).l2_norm() / flux_per_force;
-    scale[1] = std::max(scale[1], 1e-12 * scale[0] * flux_per_force);
+    scale[1] = std::max({scale[1], residual.block(1).l2_norm(), 1e-12 * scale[0] * flux_per_force});
     return scale;
   }
 

@@ -68,6 +68,27 @@ namespace bed
     return b;
   }
 
+  /** Discs of diameter @p d, as many as fit: the lightest way to a bed that only needs to be fixed. */
+  inline Bed hexagonal_bed(const double width, const double height, const double d)
+  {
+    Bed        result;
+    const auto rows = static_cast<unsigned int>(height / (d * std::sqrt(0.75)));
+    for (unsigned int j = 0; j < rows; ++j)
+      for (double x = (0.5 + 0.5 * (j % 2)) * d; x < width - 0.4 * d; x += d)
+        {
+          auto &g = result.grains;
+          g.resize(g.n() + 1);
+          g.id.back()           = g.n() - 1;
+          g.x.back()            = x;
+          g.y.back()            = (0.5 + j * std::sqrt(0.75)) * d;
+          g.radius.back()       = 0.5 * d;
+          g.fluid_radius.back() = 0.5 * d * std::sqrt(0.52 / 0.9069);
+          g.mass.back()         = 2630. * M_PI * 0.25 * d * d;
+        }
+    result.width = width, result.height = height, result.d = d;
+    return result;
+  }
+
   /** What a test may vary. */
   struct Settings
   {
@@ -104,7 +125,6 @@ namespace bed
         make_graded(width, height, h, 8. * h / s.h_over_d);
       else
         GridGenerator::subdivided_hyper_rectangle(tria, n, Point<2>(), Point<2>(width, height), true);
-      const auto constant = [](const double p) { return std::make_shared<Functions::ConstantFunction<2>>(p); };
       if (s.periodic)
         {
           std::vector<GridTools::PeriodicFacePair<Triangulation<2>::cell_iterator>> pairs;
@@ -117,8 +137,8 @@ namespace bed
           bc.set(0, {Kind::slip, "left", nullptr});
           bc.set(1, {Kind::slip, "right", nullptr});
         }
-      bc.set(2, {Kind::pressure, "bottom", constant(pressure_below)});
-      bc.set(3, {Kind::pressure, "top", constant(0.)});
+      set_pressure_below(pressure_below);
+      bc.set(3, {Kind::pressure, "top", std::make_shared<Functions::ConstantFunction<2>>(0.)});
       settings = s;
       initialize();
     }
@@ -144,6 +164,11 @@ namespace bed
               cell->set_refine_flag();
           tria.execute_coarsening_and_refinement();
         }
+    }
+
+    void set_pressure_below(const double p)
+    {
+      bc.set(2, {Kind::pressure, "bottom", std::make_shared<Functions::ConstantFunction<2>>(p)});
     }
 
     void initialize()

@@ -15,11 +15,22 @@ namespace alluvium::fluid
     double       residual     = 0.;    // relative to the equations' terms
   };
 
+  /** What the preconditioner wants to know of the equations besides their matrix. */
+  struct LinearSolverScales
+  {
+    double      inertia   = 0.; // density over time step [kg/(m^3 s)]
+    double      viscosity = 0.; // [Pa s]
+    BlockVector volumes;        // around each unknown's node [m^dim]
+  };
+
   /**
-   * GMRES with a SIMPLE preconditioner: ILU(0) on the velocity block, one algebraic multigrid V-cycle on
-   * the Schur complement D - C diag(A)^-1 B. The preconditioner is kept over steps and rebuilt when it has become
-   * clearly worse than when it was fresh. Where it fails (fast flow through fine cells in long steps) ILU(2) and a
-   * longer memory of GMRES have a try.
+   * GMRES with a block preconditioner from the factorisation
+   *   u* = A^-1 r_u,   p = S^-1 (r_p - C u*),   u = u* - A^-1 B p.
+   * A^-1 is ILU(0), or first an algebraic multigrid V-cycle where diffusion outweighs inertia and drag by far. S^-1 is
+   * one V-cycle, smoothed with ILU(0), on D - C M^-1 B, plus viscosity over volume on the diagonal (Cahouet and
+   * Chabard, Int. J. Numer. Methods Fluids 8, 1988); M are the row sums of A: inertia and drag, in which diffusion
+   * cancels. The preconditioner is kept over steps and rebuilt when it has become clearly worse than when it was fresh.
+   * Where it fails (fast flow through fine cells in long steps) ILU(2) and a longer memory of GMRES have a try.
    */
   class LinearSolver
   {
@@ -44,14 +55,17 @@ namespace alluvium::fluid
     unsigned int max_iterations    = 300;
     double       rebuild_threshold = 1.7;
 
+    /** To be filled before the first solve. */
+    LinearSolverScales scales;
+
   private:
     void build(const dealii::TrilinosWrappers::BlockSparseMatrix &matrix);
 
-    bool                                      fresh = false, exists = false, strong = false;
+    bool                                      fresh = false, exists = false, strong = false, diffusive = false;
     unsigned int                              n_when_fresh = 0;
-    std::vector<double>                       negative_inverse_diagonal; // -1/diag(A), owned rows
+    std::vector<double>                       mobility; // viscosity over volume, owned pressures [Pa s/m^dim]
     std::unique_ptr<Epetra_CrsMatrix>         schur;
     dealii::TrilinosWrappers::PreconditionILU velocity;
-    dealii::TrilinosWrappers::PreconditionAMG pressure;
+    dealii::TrilinosWrappers::PreconditionAMG coarse_velocity, pressure;
   };
 } // namespace alluvium::fluid
