@@ -155,6 +155,7 @@ namespace alluvium::fluid
     data.higher_order_elements = false;
     data.smoother_type         = "ILU";
     data.smoother_sweeps       = 1;
+    data.smoother_overlap      = 1; // as many iterations on two ranks as on one; on the velocity it would do harm
     data.aggregation_threshold = 0.02;
     pressure.initialize(*schur, data);
     exists = true;
