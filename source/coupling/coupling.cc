@@ -283,8 +283,10 @@ namespace alluvium::coupling
           s.eps                = 0.;
           for (unsigned int v = 0; v < n; ++v)
             s.eps += terms.shape[k].phi[v] * eps.local_element(space->cells()[c].node[v]);
-          s.slip     = std::hypot(state.old[k].u[0] - state.grains.vx[g], state.old[k].u[1] - state.grains.vy[g]);
-          s.diameter = 2. * state.grains.fluid_radius[g];
+          const auto spin = state.spin_velocity(k);
+          s.slip          = std::hypot(state.old[k].u[0] - state.grains.vx[g] - spin[0],
+                              state.old[k].u[1] - state.grains.vy[g] - spin[1]);
+          s.diameter      = 2. * state.grains.fluid_radius[g];
           drag_means[2 * g] += terms.shape[k].area * s.eps;
           drag_means[2 * g + 1] += terms.shape[k].area * s.reynolds();
           state.gamma[k] = regularisation.gamma(law, s);
