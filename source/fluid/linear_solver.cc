@@ -203,7 +203,7 @@ namespace alluvium::fluid
             // an old preconditioner gets a second chance as a fresh one, a fresh one as a stronger one
             if (!fresh || !strong)
               {
-                strong = fresh;
+                strong = strong || fresh;
                 build(matrix);
                 retry = true;
                 continue;

@@ -33,3 +33,33 @@ TEST(LinearSolver, NeedsFewIterationsFromCoarseToFineAndFromShortToLongSteps)
           }
       }
 }
+
+TEST(LinearSolver, AStrongerOneHasATryWhereAFreshOneFails)
+{
+  Settings     s;
+  const double h = 2.2e-4, width = 40. * h;
+  const Bed    b    = hexagonal_bed(width, width, h);
+  double       head = 0.5 * 1000. * 9.81 * b.height;
+  s.dt              = 1e-2;
+  Channel    channel(width, 1.5 * width, h, s, head);
+  const auto iterations = [&] {
+    head *= 1.01;
+    channel.set_pressure_below(head);
+    channel.step(b.grains, true);
+    return channel.coupling.report().n_iterations;
+  };
+  for (unsigned int k = 0; k < 4; ++k)
+    iterations();
+  auto &solver = channel.solver.linear_solver;
+  solver.clear();
+  const unsigned int n = iterations();
+  solver.clear();
+  solver.max_iterations = n - 1;
+  EXPECT_LT(iterations(), n);
+  EXPECT_EQ(channel.coupling.report().n_loose, 0u);
+  // and where that fails, too, the run ends
+  solver.clear();
+  solver.max_iterations = 1;
+  head *= 2.;
+  EXPECT_THROW(iterations(), dealii::ExceptionBase);
+}
