@@ -185,8 +185,6 @@ namespace alluvium::coupling
                            const double                          dt,
                            const fluid::BlockVector             &before)
   {
-    // a step so long that only the acceleration that is given is left
-    constexpr double                factor = 1e3;
     const std::vector<std::uint8_t> touched(grains.n(), 0);
     still = false;
 
@@ -196,9 +194,10 @@ namespace alluvium::coupling
     double fastest_grain = 0.;
     for (std::size_t g = 0; g < grains.n(); ++g)
       fastest_grain = std::max(fastest_grain, std::hypot(grains.vx[g], grains.vy[g]));
-    const double speed = solver->old().block(0).linfty_norm();
-    if (std::max(change.block(0).linfty_norm(), fastest_grain) > 1e-2 * speed)
-      return false;
+    const double speed   = solver->old().block(0).linfty_norm();
+    const bool   is_slow = std::max(change.block(0).linfty_norm(), fastest_grain) <= 1e-2 * speed;
+    // slow: a step so long that only the acceleration that is given is left; else the last step once more
+    const double factor = is_slow ? 1e3 : 1.;
 
     update_void_fraction(grains);
     CouplingState state(grains, touched, map, factor * dt);
@@ -216,7 +215,14 @@ namespace alluvium::coupling
     solver->linear_solver.tolerance = std::max(tolerance / factor, std::min(tolerance, 1e-12));
     solve(boundary_conditions, *frozen_scheme(), problem, state);
     solver->linear_solver.tolerance = tolerance;
-    return true;
+    if (!is_slow)
+      {
+        // the pressure that did away with what interpolation left is not that of the flow
+        fluid::BlockVector field = solver->solution();
+        field.block(1)           = solver->old().block(1);
+        solver->set_solution(field);
+      }
+    return is_slow;
   }
 
 

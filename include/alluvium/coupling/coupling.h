@@ -71,8 +71,10 @@ namespace alluvium::coupling
      * The mesh has changed, and the fields were carried over: find those that have on it the acceleration that they
      * had, (solution - @p before)/@p dt, and so the same forces on the grains, which move with their velocities. What
      * interpolation left would pass for an acceleration in the next steps. Boundary conditions are at the present time.
-     * Only in a flow that hardly changes in a step, through grains that hardly move: otherwise what changes
-     * in a step would be taken for what the meshes differ in, many times over. Returns whether that is so. Collective.
+     * That is for a flow that hardly changes in a step, through grains that hardly move: otherwise what changes in a
+     * step would be taken for what the meshes differ in, many times over. Then the last step, from @p before, is taken
+     * once more, so that the velocity at least fulfils the continuity equation of this mesh; the pressure stays as it
+     * was carried over. Returns whether the flow was of the first kind. Collective.
      */
     bool rebalance(const fluid::BoundaryConditions<dim> &boundary_conditions,
                    const grains::GrainArrays            &grains,
