@@ -1,4 +1,4 @@
-#include <alluvium/coupling/coupling.h>
+#include <alluvium/coupling/contact_iteration.h>
 #include <alluvium/coupling/homogeneous_bed.h>
 #include <alluvium/fluid/boundary_conditions.h>
 #include <alluvium/fluid/line_average.h>
@@ -160,6 +160,7 @@ namespace alluvium
     scene::GrainSetup                         grain_setup;
     grains::GrainStore                        store;
     grains::ContactStepper                    contacts;
+    coupling::ContactIteration                contact_iteration{coupling, contacts, timers};
     PluginChoice<observers::Observer>         observer_choice;
     std::unique_ptr<mesh::FieldTransfer<dim>> transfer;
 
@@ -440,11 +441,15 @@ namespace alluvium
 
     if (grains_move)
       {
-        const auto timer = timers.scope("contacts");
-        contact_report   = contacts.advance(grains, loads, dt, gravity);
-        touched          = contacts.touched();
         if (has_fluid)
-          coupling.add_grain_response(grains, loads);
+          contact_report = contact_iteration.advance(grains, loads, dt, gravity);
+        else
+          {
+            const auto timer = timers.scope("contacts");
+            contact_report   = contacts.advance(grains, loads, dt, gravity);
+          }
+        const auto timer = timers.scope("contacts");
+        touched          = contacts.touched();
         store.scatter(grains);
         grains = store.gather();
       }
@@ -456,6 +461,8 @@ namespace alluvium
     counts["contact sub-steps halved"] += contact_report.n_halvings;
     counts["contact sub-steps not converged"] += contact_report.n_unconverged;
     counts["linear iterations"] += coupling.report().n_iterations;
+    counts["repetitions of fluid and contacts"] += contact_iteration.n_repetitions();
+    counts["steps that ended above the tolerance of repetitions"] += !contact_iteration.agrees();
     counts["fluid steps like the last"] += coupling.report().steady;
     counts["linear solves above the tolerance"] += coupling.report().n_loose;
   }

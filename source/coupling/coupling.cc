@@ -4,6 +4,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
+#include <cmath>
+
 namespace alluvium::coupling
 {
   using namespace dealii;
@@ -159,9 +161,10 @@ namespace alluvium::coupling
         loads       = last_loads;
         return;
       }
-    last_inputs = std::move(inputs);
-    dt_of_step  = dt;
-    CouplingState state(grains, touched, map, dt);
+    last_inputs          = std::move(inputs);
+    latest_state         = std::make_unique<CouplingState>(grains, touched, map, dt);
+    CouplingState &state = *latest_state;
+    repeated_with.clear();
     find_state(state);
 
     // grains that cannot move need no prediction
@@ -170,13 +173,47 @@ namespace alluvium::coupling
     fluid::VansProblem<dim> problem{};
     problem.dt = dt;
     solve(boundary_conditions, scheme, problem, state);
+    find_loads(scheme, state, loads);
+    still = same_boundary_values && last.n_iterations == 0;
+  }
+
+
+  void Coupling::repeat(const GrainMotion &answer, const std::vector<double> &weights, grains::GrainLoads &loads)
+  {
+    const TimeScheme &scheme = scheme_choice.get();
+    CouplingState    &state  = *latest_state;
+    repeated_with.push_back(solver->solution());
+    repeated_with.erase(repeated_with.begin(), repeated_with.end() - weights.size());
+    state.answer = &answer;
+    solver->solve_again([&](auto &) {
+      latest_sweep = 0.;
+      for (std::size_t i = 0; i < weights.size(); ++i)
+        latest_sweep.add(weights[i], repeated_with[i]);
+      latest_sweep.update_ghost_values();
+      state.latest = evaluate(map, *space, latest_sweep);
+      if (rotation)
+        state.latest_gradient = velocity_gradients(map, *space, latest_sweep);
+      scheme.exchange_terms(state, scheme.n_sweeps(), map.terms().exchange);
+    });
+    state.answer = nullptr;
+    last.n_iterations += solver->last_report().n_iterations;
+    last.n_loose += solver->last_report().loose;
+    state.latest = evaluate(map, *space, solver->solution());
+    if (rotation)
+      state.latest_gradient = velocity_gradients(map, *space, solver->solution());
+    find_loads(scheme, state, loads);
+    still = false;
+  }
+
+
+  void Coupling::find_loads(const TimeScheme &scheme, const CouplingState &state, grains::GrainLoads &loads)
+  {
     collect_forces(state);
-    loads.reset(grains.n());
+    loads.reset(state.grains.n());
     scheme.loads(state, force, loads);
     if (rotation)
       find_torques(state, loads);
     last_loads = loads;
-    still      = same_boundary_values && last.n_iterations == 0;
   }
 
 
@@ -392,6 +429,8 @@ namespace alluvium::coupling
     predicted.resize(state.grains.n());
     outside.resize(state.grains.n(), 0);
     const DragRange range = drag_law().range();
+    last.force_on_grains  = {{0., 0.}};
+    last.force_scale      = 0.;
     for (std::size_t g = 0; g < state.grains.n(); ++g)
       {
         force[g]     = {{sums[n * g], sums[n * g + 1]}};
@@ -405,16 +444,50 @@ namespace alluvium::coupling
   }
 
 
-  void Coupling::add_grain_response(const grains::GrainArrays &grains, const grains::GrainLoads &loads)
+  std::vector<std::array<double, 2>> Coupling::piece_velocities() const
   {
-    std::array<double, 2> sum{};
-    for (std::size_t g = 0; g < grains.n(); ++g)
+    const auto                         lag_of_sweep = evaluate(map, *space, latest_sweep);
+    std::vector<std::array<double, 2>> result;
+    for (std::size_t k = 0; k < map.grain().size(); ++k)
+      result.push_back(piece_force(*latest_state, k, lag_of_sweep).velocity);
+    return result;
+  }
+
+
+  std::vector<double> Coupling::unseen_force(const GrainMotion &motion, const grains::GrainLoads &loads) const
+  {
+    const CouplingState &state = *latest_state;
+    std::vector<double>  result(2 * force.size());
+    for (std::size_t g = 0; g < force.size(); ++g)
       {
-        const double coefficient = loads.drag[g] + loads.mass_added_to(g) / dt_of_step;
-        sum[0] += coefficient * (grains.vx[g] - predicted[g][0]);
-        sum[1] += coefficient * (grains.vy[g] - predicted[g][1]);
+        const double added       = loads.mass_added_to(g) / state.dt;
+        const auto   weight      = state.reduced_weight(g);
+        const double coefficient = loads.drag[g] + added;
+        if (std::isinf(state.grains.mass[g]))
+          continue;
+        result[2 * g] = loads.fx[g] - weight[0] - force[g][0] + added * state.grains.vx[g] - coefficient * motion.vx[g];
+        result[2 * g + 1] =
+          loads.fy[g] - weight[1] - force[g][1] + added * state.grains.vy[g] - coefficient * motion.vy[g];
       }
-    last.momentum_not_received = std::hypot(sum[0], sum[1]);
+    return result;
+  }
+
+
+  double Coupling::typical_force() const
+  {
+    double weight = 0.;
+    for (std::size_t g = 0; g < force.size(); ++g)
+      if (const auto w = latest_state->reduced_weight(g); !std::isinf(latest_state->grains.mass[g]))
+        weight += std::hypot(w[0], w[1]);
+    return std::max(weight, last.force_scale) / force.size();
+  }
+
+
+  void Coupling::set_unseen_force(const std::vector<double> &of_grains)
+  {
+    last.unseen_force = {{0., 0.}};
+    for (std::size_t i = 0; i < of_grains.size(); ++i)
+      last.unseen_force[i % 2] += of_grains[i];
   }
 
 

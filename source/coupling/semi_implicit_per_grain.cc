@@ -16,7 +16,8 @@ namespace alluvium::coupling
      * grains that touched others in the last step keep the old lag, to which their contact forces belong. Even numbers
      * of sweeps are stable for every dt, odd ones are not. With added mass, gamma is CouplingState::coefficient() and s
      * has CouplingState::added_force(); where spin is coupled, w is a field w + omega* x r, with omega*
-     * = (I omega^n/dt + T(lag)) / (I/dt + J) from GrainTorques, or omega^n for grains that touched others.
+     * = (I omega^n/dt + T(lag)) / (I/dt + J) from GrainTorques, or omega^n for grains that touched others. In a
+     * repeated step w is what the grains made of the lagged fields, contacts included.
      */
     class SemiImplicitPerGrain : public TimeScheme
     {
@@ -39,26 +40,22 @@ namespace alluvium::coupling
       {
         const auto &grains = state.grains;
         const auto  lag    = [&](const std::size_t k) -> const PieceField  &{
-          return sweep == 0 || state.touched[state.map.grain()[k]] ? state.old[k] : state.latest[k];
+          const bool keep = !state.answer && (sweep == 0 || state.touched[state.map.grain()[k]]);
+          return keep ? state.old[k] : state.latest[k];
         };
-        const std::vector<double> sums  = sum_over_pieces(state, lag);
-        const std::vector<double> omega = predicted_spin(state, sweep);
+        const GrainMotion known = state.answer ? *state.answer : predicted_motion(state, lag, sweep);
         for (std::size_t k = 0; k < exchange.size(); ++k)
           {
-            const unsigned int      g       = state.map.grain()[k];
-            const double            inertia = grains.mass[g] / state.dt, denominator = inertia + sums[3 * g + 2];
-            const auto              weight = state.reduced_weight(g);
-            const auto              spin   = state.spin_velocity(k, omega[g]);
-            const PieceField       &f      = lag(k);
+            const unsigned int      g    = state.map.grain()[k];
+            const auto              spin = state.spin_velocity(k, known.omega[g]);
+            const PieceField       &f    = lag(k);
             fluid::PieceExchange<2> x;
             x.gamma      = state.coefficient(k);
-            x.compliance = 0.5 / (inertia / state.volume(g) + x.gamma);
-            x.a         = {{(inertia * grains.vx[g] + weight[0] + grains.fcx[g] + sums[3 * g]) / denominator + spin[0] +
-                              x.compliance * f.grad_p[0],
-                            (inertia * grains.vy[g] + weight[1] + grains.fcy[g] + sums[3 * g + 1]) / denominator + spin[1] +
-                              x.compliance * f.grad_p[1]}};
+            x.compliance = 0.5 / (grains.mass[g] / (state.volume(g) * state.dt) + x.gamma);
+            x.a          = {
+                       {known.vx[g] + spin[0] + x.compliance * f.grad_p[0], known.vy[g] + spin[1] + x.compliance * f.grad_p[1]}};
             x.e         = state.added_force(k);
-            x.omega     = omega[g];
+            x.omega     = known.omega[g];
             x.reference = &f == &state.old[k] ? 1 : 2;
             exchange[k] = x;
           }
@@ -92,6 +89,23 @@ namespace alluvium::coupling
       }
 
     private:
+      /** w and omega* of the class's comment. */
+      template <typename Field>
+      static GrainMotion predicted_motion(const CouplingState &state, const Field &lag, const unsigned int sweep)
+      {
+        const auto               &grains = state.grains;
+        const std::vector<double> sums   = sum_over_pieces(state, lag);
+        GrainMotion               motion{grains.vx, grains.vy, predicted_spin(state, sweep)};
+        for (std::size_t g = 0; g < grains.n(); ++g)
+          {
+            const double inertia = grains.mass[g] / state.dt, denominator = inertia + sums[3 * g + 2];
+            const auto   weight = state.reduced_weight(g);
+            motion.vx[g]        = (inertia * grains.vx[g] + weight[0] + grains.fcx[g] + sums[3 * g]) / denominator;
+            motion.vy[g]        = (inertia * grains.vy[g] + weight[1] + grains.fcy[g] + sums[3 * g + 1]) / denominator;
+          }
+        return motion;
+      }
+
       static std::vector<double> predicted_spin(const CouplingState &state, const unsigned int sweep)
       {
         std::vector<double> omega = state.grains.omega;

@@ -228,6 +228,23 @@ namespace alluvium::grains
                                implementation->acting_cohesion());
   }
 
+  ContactMemory ContactStepper::memory() const
+  {
+    const bool    has_history = implementation->model == "soft-sphere" || implementation->acting_cohesion() != nullptr;
+    ContactMemory result{implementation->work.geometry.walls.positions(), implementation->rest, {}};
+    if (has_history)
+      result.history = archive();
+    return result;
+  }
+
+  void ContactStepper::restore(const ContactMemory &memory)
+  {
+    if (memory.history)
+      set_archive(*memory.history);
+    implementation->work.geometry.walls.place(memory.wall_positions);
+    implementation->rest = memory.rest;
+  }
+
   void ContactStepper::forget_search()
   {
     implementation->forget();

@@ -29,6 +29,17 @@ namespace alluvium::observers
         statistics.add_column("contact_residual");
       }
 
+      void observe(const Snapshot &s) override
+      {
+        if (s.step == 0 || !s.fluid)
+          return;
+        const auto &report = s.fluid->coupling.report();
+        for (unsigned int d = 0; d < 2; ++d)
+          not_received[d] += s.dt * report.unseen_force[d];
+        not_received_gross += s.dt * std::hypot(report.unseen_force[0], report.unseen_force[1]);
+        received += s.dt * report.force_scale;
+      }
+
       void write(const Snapshot &s, Statistics &statistics) override
       {
         if (s.step == 0)
@@ -53,7 +64,9 @@ namespace alluvium::observers
             statistics.set("prediction_defect_mean_m_per_s", mean);
             statistics.set("prediction_defect_max_m_per_s", largest);
             statistics.set("momentum_not_received_over_force",
-                           report.force_scale > 0. ? report.momentum_not_received / report.force_scale : 0.);
+                           report.force_scale > 0.
+                             ? std::hypot(report.unseen_force[0], report.unseen_force[1]) / report.force_scale
+                             : 0.);
             statistics.set("fluid_residual", s.fluid->solver.last_report().residual);
           }
         if (s.contacts)
@@ -69,18 +82,34 @@ namespace alluvium::observers
       {
         summary.set("audit/largest_third_law_defect", third_law);
         summary.set("audit/largest_penetration_over_d", penetration);
+        if (received > 0.)
+          {
+            summary.set("audit/momentum_not_received_over_impulse",
+                        std::hypot(not_received[0], not_received[1]) / received);
+            summary.set("audit/momentum_not_received_without_regard_to_sign", not_received_gross / received);
+          }
       }
 
-      void save(nlohmann::ordered_json &state) const override { state = {third_law, penetration}; }
+      void save(nlohmann::ordered_json &state) const override
+      {
+        state = {third_law, penetration, not_received[0], not_received[1], not_received_gross, received};
+      }
 
       void load(const nlohmann::ordered_json &state) override
       {
         third_law   = state.at(0).get<double>();
         penetration = state.at(1).get<double>();
+        for (unsigned int d = 0; d < 2; ++d)
+          not_received[d] = state.at(2 + d).get<double>();
+        not_received_gross = state.at(4).get<double>();
+        received           = state.at(5).get<double>();
       }
 
     private:
       double third_law = 0., penetration = 0.;
+      // momentum that grains got and the fluid did not, and sum of |force| dt over the grains [N s/m]
+      std::array<double, 2> not_received       = {{0., 0.}};
+      double                not_received_gross = 0., received = 0.;
     };
   } // namespace
 

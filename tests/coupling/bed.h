@@ -25,20 +25,26 @@ namespace bed
     double              width, height, d; // [m]
   };
 
-  /** @p layers of a settled bed of discs 0.2 to 0.24 mm, @p across grains wide, with @p packing for the fluid. */
-  inline Bed
-  random_bed(const unsigned int seed, const double across = 30., const double layers = 20., const double packing = 0.52)
+  /** A bed of @p n discs 0.2 to 0.24 mm, settled on a floor between walls, @p width apart [m]. */
+  inline std::vector<grains::Seed> settled_seeds(const unsigned int seed, const unsigned int n, const double width)
   {
     using Registry           = alluvium::Registry<grains::Deposit>;
     auto             deposit = Registry::entries().at("settled bed").create();
     ParameterHandler prm;
     deposit->add_parameters(prm);
-    const double d     = 2.2e-4;
-    const double width = across * d;
-    prm.set("Number of grains", static_cast<long int>(across * (layers + 12.) * 1.06));
+    prm.set("Number of grains", static_cast<long int>(n));
     prm.set("Seed", static_cast<long int>(seed));
     prm.set("Cache folder", "");
-    const auto seeds = deposit->make({{{0., 0.}}, {{width, 1.}}, {}, 2630., {{0., -9.81}}, "."});
+    return deposit->make({{{0., 0.}}, {{width, 1.}}, {}, 2630., {{0., -9.81}}, "."});
+  }
+
+  /** @p layers of a settled bed of discs 0.2 to 0.24 mm, @p across grains wide, with @p packing for the fluid. */
+  inline Bed
+  random_bed(const unsigned int seed, const double across = 30., const double layers = 20., const double packing = 0.52)
+  {
+    const double d     = 2.2e-4;
+    const double width = across * d;
+    const auto   seeds = settled_seeds(seed, across * (layers + 12.) * 1.06, width);
 
     Bed          b;
     const double bottom = 4. * d;
@@ -97,10 +103,12 @@ namespace bed
     double      filter   = 2.;                                                      // 0: the grain
     bool        moments = true, lumped = true, triangles = false, periodic = false; // in x
     std::string drag = "disc", scheme = "semi-implicit per grain", regularisation = "floor";
-    double      added_mass = 0.;
-    bool        convection = true;
-    bool        rotation   = false;
-    bool        graded     = false; // h only at half the height, up to 8 d elsewhere
+    double      added_mass  = 0.;
+    bool        convection  = true;
+    bool        rotation    = false;
+    bool        graded      = false; // h only at half the height, up to 8 d elsewhere
+    double      tolerance   = 1e-3;  // of `iterated`
+    int         repetitions = 10;
   };
 
   /** A coupled fluid on a uniform mesh over a rectangle: slip sides, pressures below and above. */
@@ -183,6 +191,10 @@ namespace bed
       prm.set("Drag regularisation", settings.regularisation);
       prm.set("Added mass coefficient", settings.added_mass);
       prm.set("Rotation", settings.rotation);
+      prm.enter_subsection("Time scheme: iterated");
+      prm.set("Tolerance", settings.tolerance);
+      prm.set("Repetitions", static_cast<long int>(settings.repetitions));
+      prm.leave_subsection();
       prm.leave_subsection();
       coupling.parse_parameters();
       coupling.settings.filter_radius = settings.filter;
@@ -205,6 +217,11 @@ namespace bed
           high = std::max(high, value);
         }
       return Utilities::MPI::max(high, MPI_COMM_WORLD) - Utilities::MPI::min(low, MPI_COMM_WORLD);
+    }
+
+    void set_pressure_below(const double p)
+    {
+      bc.set(2, {Kind::pressure, "bottom", std::make_shared<Functions::ConstantFunction<2>>(p)});
     }
 
     void step(const grains::GrainArrays &g, const bool fixed)

@@ -5,6 +5,8 @@
 #include <alluvium/coupling/time_scheme.h>
 #include <alluvium/fluid/vans_solver.h>
 
+#include <memory>
+
 namespace alluvium::coupling
 {
   /** What a step's exchange looked like; sums over all ranks. */
@@ -17,12 +19,12 @@ namespace alluvium::coupling
     std::array<double, 2> force_on_fluid = {{0., 0.}}; // what the fluid's equations received [N/m]; only from audit()
     double                force_scale    = 0.;         // sum of |force| over the grains [N/m]
     // with their moments about the origin, where rotation is coupled; the second only from audit() [N]
-    double       torque_on_grains = 0., torque_on_fluid = 0.;
-    double       momentum_not_received = 0.; // |sum of G (v^{n+1} - v*)|: see add_grain_response() [N/m]
-    std::size_t  n_pieces              = 0;
-    unsigned int n_iterations          = 0;     // linear, over all sweeps
-    bool         steady                = false; // nothing had changed: all is that of the step before
-    unsigned int n_loose               = 0;     // solves that stopped above the tolerance
+    double                torque_on_grains = 0., torque_on_fluid = 0.;
+    std::array<double, 2> unseen_force = {{0., 0.}}; // sum of Coupling::unseen_force() [N/m]
+    std::size_t           n_pieces     = 0;
+    unsigned int          n_iterations = 0;     // linear, over all sweeps
+    bool                  steady       = false; // nothing had changed: all is that of the step before
+    unsigned int          n_loose      = 0;     // solves that stopped above the tolerance
   };
 
   /**
@@ -81,11 +83,25 @@ namespace alluvium::coupling
                    const double                          dt,
                    const fluid::BlockVector             &before);
 
+    TimeScheme::Repetition repetition() const { return scheme_choice.get().repetition(); }
+
     /**
-     * Tell what the grains made of the loads: where their drag was implicit, they got G (v^{n+1} - v*) that the fluid
-     * did not see.
+     * Solve the latest step's fluid again with what the grains made of its loads, @p answer, and what the fluid was
+     * when they did: both are combinations of those of the solves so far, with @p weights, the oldest first. The grains
+     * and contacts of step() must still be as they were. Fills @p loads. Collective.
      */
-    void add_grain_response(const grains::GrainArrays &grains, const grains::GrainLoads &loads);
+    void repeat(const GrainMotion &answer, const std::vector<double> &weights, grains::GrainLoads &loads);
+
+    /**
+     * Per grain, what it got from the fluid in the latest step less what the fluid gave it, x and y one after the
+     * other [N/m]. Where drag is implicit that is G (v* - v), because the grain took another velocity than the fluid
+     * saw. The grains of step() must still be as they were; @p motion is what the loads made of them.
+     */
+    std::vector<double> unseen_force(const GrainMotion &motion, const grains::GrainLoads &loads) const;
+    /** The mean reduced weight of a grain, or the mean force of the fluid on one, whichever is larger [N/m]. */
+    double typical_force() const;
+    /** Put the sum of unseen_force() into the report. */
+    void set_unseen_force(const std::vector<double> &of_grains);
 
     /** Complete the report with the sums that cost an assembly. */
     void audit();
@@ -98,8 +114,10 @@ namespace alluvium::coupling
     const std::vector<std::array<double, 2>> &fluid_force() const { return force; }
     /** The velocity v* that the fluid saw, averaged over each grain's pieces [m/s]; replicated. */
     const std::vector<std::array<double, 2>> &predicted_velocity() const { return predicted; }
-    const DragLaw                            &drag_law() const { return drag_choice.get(); }
-    const std::string                        &drag_law_name() const { return drag_choice.name(); }
+    /** The same piece by piece, of this rank [m/s]: pieces of a grain differ where sweeps have not converged. */
+    std::vector<std::array<double, 2>> piece_velocities() const;
+    const DragLaw                     &drag_law() const { return drag_choice.get(); }
+    const std::string                 &drag_law_name() const { return drag_choice.name(); }
     /** Ids of the grains whose mean void fraction or Reynolds number has ever been outside the drag law's range. */
     std::vector<grains::GrainId> outside_drag_range(const grains::GrainArrays &grains) const;
 
@@ -121,6 +139,7 @@ namespace alluvium::coupling
     };
 
     void find_state(CouplingState &state);
+    void find_loads(const TimeScheme &scheme, const CouplingState &state, grains::GrainLoads &loads);
     void solve(const fluid::BoundaryConditions<dim> &boundary_conditions,
                const TimeScheme                     &scheme,
                fluid::VansProblem<dim>               problem,
@@ -153,8 +172,9 @@ namespace alluvium::coupling
     CouplingReport                     last, of_void_fraction;
     Inputs                             last_inputs;
     grains::GrainLoads                 last_loads;
-    bool                               still      = false; // the last step left the fluid as it was
-    double                             dt_of_step = 0.;
+    bool                               still = false; // the last step left the fluid as it was
+    std::unique_ptr<CouplingState>     latest_state;  // of the latest step; refers to its caller's grains
+    std::vector<fluid::BlockVector>    repeated_with; // the solutions that a repeated step is made of
     std::vector<std::array<double, 2>> force, predicted;
     std::vector<double>                drag_means; // sums over each grain's pieces on this rank: A eps, A Re
     std::vector<std::uint8_t>          outside;    // the drag law's range, at any time

@@ -20,6 +20,12 @@ namespace alluvium::coupling
   std::vector<VelocityGradient>
   velocity_gradients(const OverlapMap &map, const fluid::FluidSpace<2> &space, const fluid::BlockVector &field);
 
+  /** How grains moved in a step: mean velocities [m/s], spin at its end [rad/s]. */
+  struct GrainMotion
+  {
+    std::vector<double> vx, vy, omega;
+  };
+
   /** All that a time scheme may know at the start of a step. Per-piece arrays follow the overlap map, per-grain ones
    * the grains. */
   struct CouplingState
@@ -42,6 +48,8 @@ namespace alluvium::coupling
     double                           fluid_density = 0.;         // [kg/m^3]
     std::vector<double>              gamma;                      // drag per piece [N s/m^4]
     std::vector<PieceField>          old, latest;                // t^n on the new pieces; after the latest sweep
+
+    const GrainMotion *answer = nullptr; // to the latest sweep, where the step is repeated with it
 
     std::vector<VelocityGradient> old_gradient, latest_gradient; // of the same; empty where spin is not coupled
 
@@ -84,6 +92,14 @@ namespace alluvium::coupling
 
     /** Solves of the fluid a step; from the second on only the known terms change, the matrix stays. */
     virtual unsigned int n_sweeps() const { return 1; }
+
+    /** How often fluid and contacts may be repeated with each other's answers, and until when; see ContactIteration. */
+    struct Repetition
+    {
+      unsigned int largest_number = 0;
+      double       tolerance      = 0.; // of Coupling::unseen_force(), see the parameter
+    };
+    virtual Repetition repetition() const { return {}; }
 
     /**
      * Fill the exchange terms of all pieces for @p sweep = 0, 1, ... Reference field 0 is none, 1 the velocity at t^n,

@@ -2,6 +2,7 @@
 
 #include <alluvium/grains/contact_archive.h>
 #include <alluvium/grains/contact_force.h>
+#include <alluvium/grains/contact_memory.h>
 #include <alluvium/grains/contact_report.h>
 #include <alluvium/grains/contact_settings.h>
 #include <alluvium/grains/ghost_exchange.h>
@@ -86,6 +87,14 @@ namespace alluvium::grains
      * grains are now.
      */
     std::vector<ContactForce> forces(const GrainArrays &grains) const;
+
+    /**
+     * To try a step and take it back: restore() what memory() was before it, and start again from the grains of then.
+     * The impulses of the try stay, as a first guess; contacts that have a history (cohesion, soft spheres) forget the
+     * try altogether. Collective.
+     */
+    ContactMemory memory() const;
+    void          restore(const ContactMemory &memory);
 
     /** Search anew in the next step: going on from here then gives the same bits as a restart from the archive. */
     void forget_search();

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <alluvium/coupling/coupling.h>
+#include <alluvium/grains/contact_stepper.h>
+
+namespace alluvium::coupling
+{
+  /**
+   * Moves the grains through a step whose fluid is solved. Where the time scheme repeats, and the velocities that the
+   * fluid saw are not those that the grains take, the fluid is solved again with the grains' answer and the grains
+   * start again from where they were, until both agree: in a jammed bed the contact forces of the last step are not
+   * those of this one. The next guess is the combination of the answers so far that would make the disagreement
+   * smallest (Anderson mixing). The end is also where that does not get smaller any more: it cannot where contacts are
+   * solved loosely, as between fast grains.
+   */
+  class ContactIteration
+  {
+  public:
+    /** @p timers get the phases "contacts" and, for what is repeated, "fluid". */
+    ContactIteration(Coupling &coupling, grains::ContactStepper &contacts, Timers &timers)
+      : coupling(coupling)
+      , contacts(contacts)
+      , timers(timers)
+    {}
+
+    /**
+     * After Coupling::step() with the same @p grains and @p dt [s]: move them under @p loads, which become those of the
+     * last solve. @p gravity as for ContactStepper::advance(). Collective.
+     */
+    grains::ContactReport
+    advance(grains::GrainArrays &grains, grains::GrainLoads &loads, double dt, const std::array<double, 2> &gravity);
+
+    /** How often the last step was repeated. */
+    unsigned int n_repetitions() const { return n; }
+    /** Whether it ended within the time scheme's tolerance; true where that has none. */
+    bool agrees() const { return agree; }
+
+  private:
+    Coupling               &coupling;
+    grains::ContactStepper &contacts;
+    Timers                 &timers;
+    unsigned int            n     = 0;
+    bool                    agree = true;
+  };
+} // namespace alluvium::coupling

@@ -1,0 +1,62 @@
+#include <alluvium/coupling/time_scheme.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+namespace alluvium::coupling
+{
+  namespace
+  {
+    /**
+     * The semi-implicit scheme per grain, repeated with what the contacts made of it (ContactIteration) where the
+     * velocities that the fluid saw are not those that the grains take.
+     */
+    class Iterated : public TimeScheme
+    {
+    public:
+      void add_parameters(dealii::ParameterHandler &prm) override
+      {
+        once->add_parameters(prm);
+        prm.add_parameter(
+          "Repetitions",
+          limit.largest_number,
+          "How often fluid and contacts are repeated in a step at most. They are not once that does not help "
+          "any more, which is where contacts are solved loosely: between fast grains.",
+          dealii::Patterns::Integer(0, 1000));
+        prm.add_parameter("Tolerance",
+                          limit.tolerance,
+                          "A step is repeated while the forces that the grains feel and the fluid does not, because "
+                          "grains do not take the velocities that were predicted, are larger than this: root mean "
+                          "square over the grains, over the mean reduced weight or force of the fluid on a grain.",
+                          dealii::Patterns::Double(0.));
+      }
+
+      unsigned int n_sweeps() const override { return once->n_sweeps(); }
+      bool         predicts_acceleration() const override { return true; }
+      Repetition   repetition() const override { return limit; }
+
+      void exchange_terms(const CouplingState                  &state,
+                          const unsigned int                    sweep,
+                          std::vector<fluid::PieceExchange<2>> &exchange) const override
+      {
+        once->exchange_terms(state, sweep, exchange);
+      }
+
+      void loads(const CouplingState                      &state,
+                 const std::vector<std::array<double, 2>> &force,
+                 grains::GrainLoads                       &loads) const override
+      {
+        once->loads(state, force, loads);
+      }
+
+    private:
+      std::unique_ptr<TimeScheme> once = Registry<TimeScheme>::entries().at("semi-implicit per grain").create();
+      Repetition                  limit{10, 1e-3};
+    };
+  } // namespace
+
+  ALLUVIUM_REGISTER_TIME_SCHEME(
+    Iterated,
+    "iterated",
+    "The semi-implicit scheme per grain, repeated with the new contact forces until fluid and grains agree on the "
+    "grains' velocities: for jammed beds whose load jumps, and time steps far above the drag's relaxation time.")
+} // namespace alluvium::coupling
