@@ -152,16 +152,17 @@ namespace alluvium::coupling
   {
     const CouplingReport before = last;
     const bool           moved  = update_void_fraction(grains);
-    Inputs     inputs{dt, fixed, {grains.vx, grains.vy, grains.omega, grains.fcx, grains.fcy, grains.mass}, touched};
+    const auto           inputs = [&]() -> Inputs {
+      return {dt, fixed, {grains.vx, grains.vy, grains.omega, grains.fcx, grains.fcy, grains.mass}, touched};
+    };
     const bool same_boundary_values = solver->has_boundary_values(boundary_conditions);
-    if (!moved && same_boundary_values && still && inputs == last_inputs)
+    if (!moved && same_boundary_values && still && inputs() == last_inputs)
       {
         last        = before;
         last.steady = true;
         loads       = last_loads;
         return;
       }
-    last_inputs          = std::move(inputs);
     latest_state         = std::make_unique<CouplingState>(grains, touched, map, dt);
     CouplingState &state = *latest_state;
     repeated_with.clear();
@@ -175,6 +176,8 @@ namespace alluvium::coupling
     solve(boundary_conditions, scheme, problem, state);
     find_loads(scheme, state, loads);
     still = same_boundary_values && last.n_iterations == 0;
+    if (still)
+      last_inputs = inputs();
   }
 
 
@@ -190,17 +193,13 @@ namespace alluvium::coupling
       for (std::size_t i = 0; i < weights.size(); ++i)
         latest_sweep.add(weights[i], repeated_with[i]);
       latest_sweep.update_ghost_values();
-      state.latest = evaluate(map, *space, latest_sweep);
-      if (rotation)
-        state.latest_gradient = velocity_gradients(map, *space, latest_sweep);
+      look_at(latest_sweep, state);
       scheme.exchange_terms(state, scheme.n_sweeps(), map.terms().exchange);
     });
     state.answer = nullptr;
     last.n_iterations += solver->last_report().n_iterations;
     last.n_loose += solver->last_report().loose;
-    state.latest = evaluate(map, *space, solver->solution());
-    if (rotation)
-      state.latest_gradient = velocity_gradients(map, *space, solver->solution());
+    look_at(solver->solution(), state);
     find_loads(scheme, state, loads);
     still = false;
   }
@@ -208,11 +207,12 @@ namespace alluvium::coupling
 
   void Coupling::find_loads(const TimeScheme &scheme, const CouplingState &state, grains::GrainLoads &loads)
   {
-    collect_forces(state);
+    const std::vector<PieceField> lag_of_sweep = evaluate(map, *space, latest_sweep);
+    collect_forces(state, lag_of_sweep);
     loads.reset(state.grains.n());
     scheme.loads(state, force, loads);
     if (rotation)
-      find_torques(state, loads);
+      find_torques(state, lag_of_sweep, loads);
     last_loads = loads;
   }
 
@@ -293,9 +293,7 @@ namespace alluvium::coupling
     last.n_loose      = solver->last_report().loose;
     for (unsigned int sweep = 1; sweep < scheme.n_sweeps(); ++sweep)
       {
-        state.latest = evaluate(map, *space, solver->solution());
-        if (rotation)
-          state.latest_gradient = velocity_gradients(map, *space, solver->solution());
+        look_at(solver->solution(), state);
         solver->solve_again([&](auto &) {
           latest_sweep = solver->solution();
           latest_sweep.update_ghost_values();
@@ -304,9 +302,15 @@ namespace alluvium::coupling
         last.n_iterations += solver->last_report().n_iterations;
         last.n_loose += solver->last_report().loose;
       }
-    state.latest = evaluate(map, *space, solver->solution());
+    look_at(solver->solution(), state);
+  }
+
+
+  void Coupling::look_at(const fluid::BlockVector &field, CouplingState &state) const
+  {
+    state.latest = evaluate(map, *space, field);
     if (rotation)
-      state.latest_gradient = velocity_gradients(map, *space, solver->solution());
+      state.latest_gradient = velocity_gradients(map, *space, field);
   }
 
 
@@ -357,7 +361,9 @@ namespace alluvium::coupling
   }
 
 
-  void Coupling::find_torques(const CouplingState &state, grains::GrainLoads &loads)
+  void Coupling::find_torques(const CouplingState           &state,
+                              const std::vector<PieceField> &lag_of_sweep,
+                              grains::GrainLoads            &loads)
   {
     GrainTorques torques = grain_torques(state);
     loads.torque         = std::move(torques.torque);
@@ -365,7 +371,6 @@ namespace alluvium::coupling
 
     // what the fluid saw
     const auto &exchange     = map.terms().exchange;
-    const auto  lag          = evaluate(map, *space, latest_sweep);
     const auto  lag_gradient = velocity_gradients(map, *space, latest_sweep);
     double      sum          = 0.;
     for (std::size_t k = 0; k < state.n_pieces(); ++k)
@@ -373,7 +378,7 @@ namespace alluvium::coupling
         const auto        &x = exchange[k];
         const unsigned int g = map.grain()[k];
         const double       b = x.gamma * x.compliance, area = map.terms().shape[k].area;
-        const auto         f   = piece_force(state, k, lag).force;
+        const auto         f   = piece_force(state, k, lag_of_sweep).force;
         const auto        &arm = map.arms()[k].arm;
         const auto        &c   = map.arms()[k].moments;
         sum += area * ((state.grains.x[g] + arm[0]) * f[1] - (state.grains.y[g] + arm[1]) * f[0]);
@@ -404,12 +409,11 @@ namespace alluvium::coupling
   }
 
 
-  void Coupling::collect_forces(const CouplingState &state)
+  void Coupling::collect_forces(const CouplingState &state, const std::vector<PieceField> &lag_of_sweep)
   {
-    const auto                   &terms = map.terms();
-    constexpr unsigned int        n     = 7;
-    std::vector<double>           sums(n * state.grains.n(), 0.);
-    const std::vector<PieceField> lag_of_sweep = evaluate(map, *space, latest_sweep);
+    const auto            &terms = map.terms();
+    constexpr unsigned int n     = 7;
+    std::vector<double>    sums(n * state.grains.n(), 0.);
     for (std::size_t k = 0; k < terms.n_pieces(); ++k)
       {
         const PieceForce   f = piece_force(state, k, lag_of_sweep);

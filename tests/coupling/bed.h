@@ -219,11 +219,6 @@ namespace bed
       return Utilities::MPI::max(high, MPI_COMM_WORLD) - Utilities::MPI::min(low, MPI_COMM_WORLD);
     }
 
-    void set_pressure_below(const double p)
-    {
-      bc.set(2, {Kind::pressure, "bottom", std::make_shared<Functions::ConstantFunction<2>>(p)});
-    }
-
     void step(const grains::GrainArrays &g, const bool fixed)
     {
       const std::vector<std::uint8_t> touched(g.n(), 0);

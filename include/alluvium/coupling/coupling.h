@@ -146,8 +146,10 @@ namespace alluvium::coupling
                CouplingState                        &state);
     void find_drag(CouplingState &state);
     void find_acceleration(CouplingState &state) const;
-    void find_torques(const CouplingState &state, grains::GrainLoads &loads);
-    void collect_forces(const CouplingState &state);
+    void look_at(const fluid::BlockVector &field, CouplingState &state) const;
+    void
+    find_torques(const CouplingState &state, const std::vector<PieceField> &lag_of_sweep, grains::GrainLoads &loads);
+    void collect_forces(const CouplingState &state, const std::vector<PieceField> &lag_of_sweep);
 
     /** Velocity of a piece as the fluid saw it in the latest sweep [m/s], and the force density on it [N/m^3]. */
     struct PieceForce
