@@ -105,6 +105,7 @@ namespace alluvium::fluid
   {
     const auto             &A    = matrix.block(0, 0);
     const Epetra_CrsMatrix &rows = A.trilinos_matrix();
+    pressure.clear(); // while the matrix that its smoothers look at is still there
     velocity.initialize(A, TrilinosWrappers::PreconditionILU::AdditionalData(strong ? 2 : 0));
 
     // row sums; convection can turn the sign of those next to walls, whose columns are missing

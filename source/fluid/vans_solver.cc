@@ -38,8 +38,8 @@ namespace alluvium::fluid
   template <int dim>
   void VansSolver<dim>::reinit()
   {
+    linear_solver.clear(); // first: it looks at the assembler's matrix
     assembler.reinit();
-    linear_solver.clear();
     auto &volumes = linear_solver.scales.volumes;
     volumes       = space->make_field();
     for (const CellData<dim> &cell : space->cells())
