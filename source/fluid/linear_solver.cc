@@ -93,7 +93,8 @@ namespace alluvium::fluid
 
   void LinearSolver::clear()
   {
-    exists = strong = false;
+    exists = false;
+    rigour = 0;
     velocity.clear();
     coarse_velocity.clear();
     pressure.clear();
@@ -106,7 +107,7 @@ namespace alluvium::fluid
     const auto             &A    = matrix.block(0, 0);
     const Epetra_CrsMatrix &rows = A.trilinos_matrix();
     pressure.clear(); // while the matrix that its smoothers look at is still there
-    velocity.initialize(A, TrilinosWrappers::PreconditionILU::AdditionalData(strong ? 2 : 0));
+    velocity.initialize(A, TrilinosWrappers::PreconditionILU::AdditionalData(rigour == 2 ? 2 : 0));
 
     // row sums; convection can turn the sign of those next to walls, whose columns are missing
     TrilinosWrappers::MPI::Vector negative_inverse_sums(A.locally_owned_range_indices(), A.get_mpi_communicator());
@@ -118,12 +119,13 @@ namespace alluvium::fluid
         int                           n      = 0;
         double                       *value  = nullptr;
         rows.ExtractMyRowView(i, n, value);
+        const double diagonal      = A.diag_element(row);
         const double sum           = std::max(std::accumulate(value, value + n, 0.), 0.1 * scales.inertia * volume);
-        negative_inverse_sums(row) = -1. / sum;
-        largest_ratio              = std::max(largest_ratio, A.diag_element(row) / sum);
+        negative_inverse_sums(row) = -1. / (rigour == 0 ? sum : diagonal);
+        largest_ratio              = std::max(largest_ratio, diagonal / sum);
       }
     negative_inverse_sums.compress(VectorOperation::insert);
-    diffusive = !strong && Utilities::MPI::max(largest_ratio, A.get_mpi_communicator()) > diffusive_ratio;
+    diffusive = rigour == 0 && Utilities::MPI::max(largest_ratio, A.get_mpi_communicator()) > diffusive_ratio;
     if (diffusive)
       {
         TrilinosWrappers::PreconditionAMG::AdditionalData data;
@@ -140,7 +142,7 @@ namespace alluvium::fluid
 
     mobility.clear();
     for (unsigned int i = 0; i < scales.volumes.block(1).locally_owned_size(); ++i)
-      mobility.push_back(scales.viscosity / scales.volumes.block(1).local_element(i));
+      mobility.push_back(rigour == 0 ? scales.viscosity / scales.volumes.block(1).local_element(i) : 0.);
     TrilinosWrappers::SparseMatrix product;
     matrix.block(1, 0).mmult(product, matrix.block(0, 1), negative_inverse_sums);
     // the union of both patterns: rows of prescribed pressures have no entry in C B
@@ -154,10 +156,10 @@ namespace alluvium::fluid
     TrilinosWrappers::PreconditionAMG::AdditionalData data;
     data.elliptic              = true;
     data.higher_order_elements = false;
-    data.smoother_type         = "ILU";
-    data.smoother_sweeps       = 1;
-    data.smoother_overlap      = 1; // as many iterations on two ranks as on one; on the velocity it would do harm
     data.aggregation_threshold = 0.02;
+    data.smoother_type         = rigour == 0 ? "ILU" : "Chebyshev";
+    data.smoother_sweeps       = rigour == 0 ? 1 : 2;
+    data.smoother_overlap = rigour == 0; // as many iterations on two ranks as on one; on the velocity it would do harm
     pressure.initialize(*schur, data);
     exists = true;
     fresh  = true;
@@ -187,7 +189,7 @@ namespace alluvium::fluid
       {
         SolverControl                                     control(max_iterations, target, false, false);
         typename SolverGMRES<BlockVector>::AdditionalData data;
-        data.max_n_tmp_vectors     = strong ? 150 : 60;
+        data.max_n_tmp_vectors     = rigour == 2 ? 150 : 60;
         data.right_preconditioning = true;
         SolverGMRES<BlockVector>                  gmres(control, data);
         const TrilinosWrappers::PreconditionBase &first =
@@ -201,10 +203,10 @@ namespace alluvium::fluid
           }
         catch (const SolverControl::NoConvergence &)
           {
-            // an old preconditioner gets a second chance as a fresh one, a fresh one as a stronger one
-            if (!fresh || !strong)
+            // an old preconditioner gets a second chance as a fresh one, a fresh one as a more rigorous one
+            if (!fresh || rigour < 2)
               {
-                strong = strong || fresh;
+                rigour += fresh;
                 build(matrix);
                 retry = true;
                 continue;

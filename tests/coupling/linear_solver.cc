@@ -34,33 +34,29 @@ TEST(LinearSolver, NeedsFewIterationsFromCoarseToFineAndFromShortToLongSteps)
       }
 }
 
-TEST(LinearSolver, AStrongerOneHasATryWhereAFreshOneFails)
+TEST(LinearSolver, AMoreRigorousOneHasATryWhereAFreshOneFails)
 {
-  Settings s; // where ILU(2) needs fewer iterations than what is tried first
-  s.h_over_d     = 0.25;
+  Settings s; // water that crosses eight cells a step
+  s.h_over_d     = 0.5;
   s.dt           = 1e-2;
-  const double d = 2.2e-4, h = s.h_over_d * d, width = 40. * h;
-  const Bed    b    = hexagonal_bed(width, width, d);
-  double       head = 0.02 * 1000. * 9.81 * b.height;
+  const double d = 2.2e-4, h = s.h_over_d * d, width = 30. * h;
+  const Bed    b    = hexagonal_bed(width, width / 6., d);
+  double       head = 10. * 1000. * 9.81 * b.height;
   Channel      channel(width, 1.5 * width, h, s, head);
-  const auto   iterations = [&] {
+  channel.solver.linear_solver.max_iterations = 100; // the first preconditioner would take 280
+  const auto iterations                       = [&] {
     head *= 1.01;
     channel.set_pressure_below(head);
     channel.step(b.grains, true);
+    EXPECT_EQ(channel.coupling.report().n_loose, 0u);
     return channel.coupling.report().n_iterations;
   };
   for (unsigned int k = 0; k < 4; ++k)
-    iterations();
-  auto &solver = channel.solver.linear_solver;
-  solver.clear();
-  const unsigned int n = iterations();
-  solver.clear();
-  solver.max_iterations = n - 1;
-  EXPECT_LT(iterations(), n);
-  EXPECT_EQ(channel.coupling.report().n_loose, 0u);
+    EXPECT_LE(iterations(), 100u);
+  EXPECT_LE(iterations(), 30u);
   // and where that fails, too, the run ends
-  solver.clear();
-  solver.max_iterations = 1;
+  channel.solver.linear_solver.clear();
+  channel.solver.linear_solver.max_iterations = 1;
   head *= 2.;
   EXPECT_THROW(iterations(), dealii::ExceptionBase);
 }

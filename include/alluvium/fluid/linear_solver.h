@@ -30,7 +30,8 @@ namespace alluvium::fluid
    * one V-cycle, smoothed with ILU(0), on D - C M^-1 B, plus viscosity over volume on the diagonal (Cahouet and
    * Chabard, Int. J. Numer. Methods Fluids 8, 1988); M are the row sums of A: inertia and drag, in which diffusion
    * cancels. The preconditioner is kept over steps and rebuilt when it has become clearly worse than when it was fresh.
-   * Where it fails (fast flow through fine cells in long steps) ILU(2) and a longer memory of GMRES have a try.
+   * Where it fails (fast flow through fine cells in long steps: convection) the diagonal of A in place of its row sums
+   * has a try, and then ILU(2) and a longer memory of GMRES.
    */
   class LinearSolver
   {
@@ -61,10 +62,11 @@ namespace alluvium::fluid
   private:
     void build(const dealii::TrilinosWrappers::BlockSparseMatrix &matrix);
 
-    bool                                      fresh = false, exists = false, strong = false, diffusive = false;
-    unsigned int                              n_when_fresh = 0;
-    std::vector<double>                       mobility; // viscosity over volume, owned pressures [Pa s/m^dim]
-    std::unique_ptr<Epetra_CrsMatrix>         schur;
+    bool                              fresh = false, exists = false, diffusive = false;
+    unsigned int                      rigour       = 0; // one more each time that a fresh preconditioner fails, up to 2
+    unsigned int                      n_when_fresh = 0;
+    std::vector<double>               mobility; // viscosity over volume, owned pressures [Pa s/m^dim]
+    std::unique_ptr<Epetra_CrsMatrix> schur;
     dealii::TrilinosWrappers::PreconditionILU velocity;
     dealii::TrilinosWrappers::PreconditionAMG coarse_velocity, pressure;
   };
