@@ -110,7 +110,7 @@ namespace alluvium::fluid
     velocity.initialize(A, TrilinosWrappers::PreconditionILU::AdditionalData(rigour == 2 ? 2 : 0));
 
     // row sums; convection can turn the sign of those next to walls, whose columns are missing
-    TrilinosWrappers::MPI::Vector negative_inverse_sums(A.locally_owned_range_indices(), A.get_mpi_communicator());
+    TrilinosWrappers::MPI::Vector negative_inverse(A.locally_owned_range_indices(), A.get_mpi_communicator());
     double                        largest_ratio = 0.;
     for (int i = 0; i < rows.NumMyRows(); ++i)
       {
@@ -119,12 +119,12 @@ namespace alluvium::fluid
         int                           n      = 0;
         double                       *value  = nullptr;
         rows.ExtractMyRowView(i, n, value);
-        const double diagonal      = A.diag_element(row);
-        const double sum           = std::max(std::accumulate(value, value + n, 0.), 0.1 * scales.inertia * volume);
-        negative_inverse_sums(row) = -1. / (rigour == 0 ? sum : diagonal);
-        largest_ratio              = std::max(largest_ratio, diagonal / sum);
+        const double diagonal = A.diag_element(row);
+        const double sum      = std::max(std::accumulate(value, value + n, 0.), 0.1 * scales.inertia * volume);
+        negative_inverse(row) = -1. / (rigour == 0 ? sum : diagonal);
+        largest_ratio         = std::max(largest_ratio, diagonal / sum);
       }
-    negative_inverse_sums.compress(VectorOperation::insert);
+    negative_inverse.compress(VectorOperation::insert);
     diffusive = rigour == 0 && Utilities::MPI::max(largest_ratio, A.get_mpi_communicator()) > diffusive_ratio;
     if (diffusive)
       {
@@ -144,7 +144,7 @@ namespace alluvium::fluid
     for (unsigned int i = 0; i < scales.volumes.block(1).locally_owned_size(); ++i)
       mobility.push_back(rigour == 0 ? scales.viscosity / scales.volumes.block(1).local_element(i) : 0.);
     TrilinosWrappers::SparseMatrix product;
-    matrix.block(1, 0).mmult(product, matrix.block(0, 1), negative_inverse_sums);
+    matrix.block(1, 0).mmult(product, matrix.block(0, 1), negative_inverse);
     // the union of both patterns: rows of prescribed pressures have no entry in C B
     Epetra_CrsMatrix *sum = nullptr;
     EpetraExt::MatrixMatrix::Add(

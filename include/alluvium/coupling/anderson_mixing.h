@@ -16,9 +16,6 @@ namespace alluvium::coupling
       : depth(depth)
     {}
 
-    /** Forget all. */
-    void clear() { residuals.clear(); }
-
     /** Add the residual of the latest answer, and drop the oldest beyond the depth. */
     void add(std::vector<double> residual);
 
