@@ -1,0 +1,82 @@
+#pragma once
+
+#include <alluvium/coupling/contact_iteration.h>
+#include <alluvium/coupling/coupling.h>
+#include <alluvium/fluid/boundary_conditions.h>
+#include <alluvium/fluid/vans_solver.h>
+#include <alluvium/grains/contact_stepper.h>
+#include <alluvium/grains/grain_store.h>
+#include <alluvium/mesh/adaptivity.h>
+#include <alluvium/mesh/bed_faces.h>
+#include <alluvium/mesh/domain.h>
+#include <alluvium/mesh/field_transfer.h>
+#include <alluvium/scene/grain_setup.h>
+#include <alluvium/utilities/timers.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace alluvium::run
+{
+  /**
+   * What a run computes with: the rooms that take part, and the state that they advance. It decides nothing; set_up()
+   * fills it, Simulation::Implementation::step() moves it on. The fluid's rooms stay empty in a dry scene.
+   */
+  struct Model
+  {
+    static constexpr int dim = 2;
+
+    explicit Model(MPI_Comm communicator);
+
+    /** Declare the parameters of all rooms in @p prm. */
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /** What refinement criteria see of the grains, now. */
+    mesh::RefinementContext refinement_context() const;
+
+    /** Magnitude of the acceleration of gravity [m/s^2]. */
+    double gravity_size() const;
+
+    const MPI_Comm communicator;
+    const bool     speaks; // this rank writes what the user reads
+
+    // parameters
+    double                time_step = 1e-3; // [s]
+    bool                  has_fluid = true, grains_move = true;
+    std::array<double, 2> gravity{}; // [m/s^2]
+
+    // the rooms
+    mesh::Domain<dim>                                domain;
+    mesh::Adaptivity<dim>                            adaptivity;
+    mesh::CellWeights                                cell_weights; // before the mesh, which asks it
+    std::unique_ptr<dealii::Triangulation<dim, dim>> triangulation;
+    fluid::BoundaryConditions<dim>                   boundary_conditions;
+    fluid::FluidSpace<dim>                           space;
+    fluid::VansSolver<dim>                           solver;
+    coupling::Coupling                               coupling;
+    scene::GrainSetup                                grain_setup;
+    grains::GrainStore                               store;
+    grains::ContactStepper                           contacts;
+    Timers                                           timers;
+    coupling::ContactIteration                       contact_iteration;
+    std::unique_ptr<mesh::FieldTransfer<dim>>        transfer;
+
+    // the state
+    grains::GrainArrays           grains;
+    grains::GrainLoads            loads;
+    std::vector<std::uint8_t>     touched; // by others in the last step
+    grains::ContactReport         contact_report;
+    mesh::BedFaces                initial_bed;
+    double                        time    = 0.; // [s]
+    unsigned int                  n_steps = 0;
+    std::map<std::string, double> counts; // steps, sweeps, iterations ...
+
+    /** Gravity and the kind of fluid are written as text: make them what they mean. After parsing. */
+    void parse_parameters();
+
+  private:
+    std::string gravity_text = "0, -9.81", fluid_model = "volume-averaged";
+  };
+} // namespace alluvium::run

@@ -1,0 +1,281 @@
+#include <alluvium/fluid/line_average.h>
+#include <alluvium/observers/fluid_output.h>
+#include <alluvium/run/model.h>
+#include <alluvium/run/output.h>
+
+#include <deal.II/base/data_out_base.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/grid/reference_cell.h>
+#include <deal.II/grid/tria.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <sstream>
+
+namespace alluvium::run
+{
+  using namespace dealii;
+
+  Output::Output(Model &model)
+    : model(model)
+  {}
+
+
+  void Output::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Output");
+    prm.add_parameter("Interval of pictures",
+                      picture_interval,
+                      "Time between two outputs of the fields for ParaView [s]; 0: none.",
+                      Patterns::Double(0.));
+    prm.add_parameter("Interval of statistics",
+                      row_interval,
+                      "Time between two rows of statistics.csv [s]; 0: every step.",
+                      Patterns::Double(0.));
+    prm.add_parameter("Format",
+                      format,
+                      "Files of the fluid's fields: .vtu, or HDF5 with XDMF for big runs.",
+                      Patterns::Selection("vtu|hdf5"));
+    prm.add_parameter("Digits", precision, "Significant digits in statistics.csv.", Patterns::Integer(3, 17));
+    output_folder.add_parameters(prm);
+    choice.add_parameters(prm,
+                          "Observers",
+                          "head, motion, support, flux, bed, audit",
+                          "What to measure; those that a scene gives nothing to are left out.",
+                          true);
+    prm.leave_subsection();
+  }
+
+
+  void Output::choose_observers()
+  {
+    if (model.has_fluid)
+      fluid_view = std::make_unique<observers::FluidView>(
+        observers::FluidView{model.space, model.solver, model.boundary_conditions, model.coupling});
+    observing.clear();
+    for (observers::Observer *observer : choice.all())
+      if (observer->applies(snapshot()))
+        observing.push_back(observer);
+  }
+
+
+  std::string Output::observers() const
+  {
+    std::string names, idle;
+    for (const auto &name : Utilities::split_string_list(choice.name()))
+      {
+        const bool   works = std::count(observing.begin(), observing.end(), &choice.get(name)) > 0;
+        std::string &list  = works ? names : idle;
+        list += (list.empty() ? "" : ", ") + name;
+      }
+    return names + (idle.empty() ? "" : "; left out, with nothing to measure here: " + idle);
+  }
+
+
+  void Output::make_folder(const bool is_restart)
+  {
+    output_folder.create(model.communicator, is_restart);
+  }
+
+
+  void Output::open()
+  {
+    const bool hdf5 = format == "hdf5";
+    statistics =
+      std::make_unique<observers::Statistics>(output_folder.file("statistics.csv"), model.communicator, precision);
+    summary        = std::make_unique<observers::Summary>(output_folder.file("summary.json"), model.communicator);
+    grain_pictures = std::make_unique<observers::FieldSeries>(output_folder.path(), "grains", hdf5, model.communicator);
+    fluid_pictures = std::make_unique<observers::FieldSeries>(output_folder.path(), "fluid", hdf5, model.communicator);
+    statistics->add_column("time_s");
+    for (auto *observer : observing)
+      observer->add_columns(snapshot(), *statistics);
+  }
+
+
+  double Output::head() const
+  {
+    const double g = model.gravity_size(), rho = model.solver.properties.density;
+    if (model.initial_bed.empty() || g == 0.)
+      return std::numeric_limits<double>::quiet_NaN();
+    // y + p/(rho g) is the reduced pressure over rho g
+    const auto psi = [&](const std::array<double, Model::dim> &u, const double p) {
+      return p / (rho * g) + (u[0] * u[0] + u[1] * u[1]) / (2. * g);
+    };
+    const auto average = [&](const double height) {
+      return fluid::line_average<Model::dim>(model.space, model.solver.solution(), height, psi);
+    };
+    return average(model.initial_bed.bottom()) - average(model.initial_bed.top());
+  }
+
+
+  observers::Snapshot Output::snapshot() const
+  {
+    return {model.time,
+            model.time_step,
+            model.n_steps,
+            model.grains,
+            model.initial_bed,
+            model.domain.lower()[0],
+            model.domain.upper()[0],
+            model.gravity,
+            model.grains_move ? &model.contact_report : nullptr,
+            fluid_view.get(),
+            model.grains_move ? &model.contacts : nullptr,
+            output_folder.path(),
+            model.communicator};
+  }
+
+
+  void Output::observe()
+  {
+    const auto timer = model.timers.scope("observers");
+    if (model.has_fluid)
+      fluid_view->head = head();
+    for (auto *observer : observing)
+      observer->observe(snapshot());
+  }
+
+
+  void Output::write_row()
+  {
+    const auto timer = model.timers.scope("observers");
+    statistics->set("time_s", model.time);
+    for (auto *observer : observing)
+      observer->write(snapshot(), *statistics);
+    statistics->write_row();
+  }
+
+
+  void Output::write_pictures()
+  {
+    const auto timer = model.timers.scope("pictures");
+    model.store.output([&](auto &data) { grain_pictures->write<0>(data, ReferenceCells::Vertex, model.time); });
+    if (model.has_fluid)
+      observers::write_fluid(*fluid_pictures,
+                             model.space,
+                             model.solver.solution(),
+                             model.coupling.void_fraction(),
+                             model.solver.properties.density * model.solver.gravity,
+                             model.solver.datum(),
+                             model.time);
+  }
+
+
+  void Output::write_beginning()
+  {
+    observe();
+    write_row();
+    if (picture_interval > 0.)
+      write_pictures();
+  }
+
+
+  void Output::update()
+  {
+    observe();
+    if (is_due(model.time, model.time_step, row_interval))
+      write_row();
+    if (picture_interval > 0. && is_due(model.time, model.time_step, picture_interval))
+      write_pictures();
+  }
+
+
+  void Output::conclude(const bool interrupted)
+  {
+    for (auto *observer : observing)
+      observer->conclude(*summary);
+    summary->set("run/time_s", model.time);
+    summary->set("run/steps", model.n_steps);
+    summary->set("run/interrupted", interrupted);
+    summary->set("run/ranks", Utilities::MPI::n_mpi_processes(model.communicator));
+    const auto lower = model.domain.lower(), upper = model.domain.upper();
+    summary->set("domain/lower_m", std::vector<double>{lower[0], lower[1]});
+    summary->set("domain/upper_m", std::vector<double>{upper[0], upper[1]});
+    summary->set("scene/grains", model.grains.n());
+    if (model.has_fluid)
+      {
+        summary->set("scene/cells", static_cast<unsigned long>(model.triangulation->n_global_active_cells()));
+        summary->set("scene/unknowns", static_cast<unsigned long>(model.space.n_dofs()));
+        summary->set("scene/pieces", model.coupling.report().n_pieces);
+      }
+    for (const auto &[name, count] : model.counts)
+      summary->set("counts/" + name, count);
+    model.timers.add(model.solver.timers);
+    const auto phases = model.timers.slowest(model.communicator);
+    for (const auto &[name, phase] : phases)
+      {
+        summary->set("timing/" + name + "/wall_s", phase.wall);
+        summary->set("timing/" + name + "/cpu_s", phase.cpu);
+      }
+    const auto warn_of = [&](const std::string &name, const std::string &text) {
+      if (model.counts[name] > 0)
+        summary->warn(std::to_string(static_cast<long>(model.counts[name])) + text);
+    };
+    warn_of("contact sub-steps not converged",
+            " contact sub-steps were accepted above the tolerance; see Contacts in the parameters.");
+    warn_of("linear solves above the tolerance",
+            " linear solves of the fluid stopped above the tolerance, at a relative residual below 1e-5.");
+    if (model.has_fluid)
+      warn_of_drag_range();
+    summary->write();
+    if (model.speaks)
+      {
+        double total = 0.;
+        for (const auto &[name, phase] : phases)
+          total += name.find(": ") == std::string::npos ? phase.wall : 0.;
+        print_timers(std::cout, phases, total);
+      }
+  }
+
+
+  void Output::warn_of_drag_range()
+  {
+    const std::vector<grains::GrainId> ids = model.coupling.outside_drag_range(model.grains);
+    if (ids.empty())
+      return;
+    const coupling::DragRange range = model.coupling.drag_law().range();
+    std::ostringstream        text;
+    text << ids.size() << " of " << model.grains.n() << " grains were at some time outside the range of the drag law '"
+         << model.coupling.drag_law_name() << "' (void fraction " << range.eps_min << " to " << range.eps_max
+         << ", Reynolds number " << range.re_min << " to " << range.re_max << "): ids ";
+    const std::size_t n_shown = std::min<std::size_t>(ids.size(), 20);
+    for (std::size_t i = 0; i < n_shown; ++i)
+      text << (i ? ", " : "") << ids[i];
+    text << (n_shown < ids.size() ? ", ..." : "") << '.';
+    summary->warn(text.str());
+    if (model.speaks)
+      std::cout << "Warning: " << text.str() << std::endl;
+  }
+
+
+  void Output::save(nlohmann::ordered_json &state) const
+  {
+    state["grain pictures"] = grain_pictures->state();
+    state["fluid pictures"] = fluid_pictures->state();
+    for (const auto &name : Utilities::split_string_list(choice.name()))
+      choice.get(name).save(state["observers"][name]);
+  }
+
+
+  void Output::load(const nlohmann::ordered_json &state)
+  {
+    grain_pictures->resume(state.at("grain pictures"));
+    fluid_pictures->resume(state.at("fluid pictures"));
+    for (const auto &name : Utilities::split_string_list(choice.name()))
+      if (!state.at("observers").at(name).is_null())
+        choice.get(name).load(state.at("observers").at(name));
+    statistics->resume(model.time);
+  }
+
+
+  bool is_due(const double time, const double dt, const double interval)
+  {
+    const double eps = 1e-6 * dt;
+    return interval == 0. || std::floor((time + eps) / interval) > std::floor((time - dt + eps) / interval);
+  }
+} // namespace alluvium::run

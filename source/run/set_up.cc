@@ -1,0 +1,129 @@
+#include <alluvium/run/checkpoint.h>
+#include <alluvium/run/mesh_changes.h>
+#include <alluvium/run/model.h>
+#include <alluvium/run/set_up.h>
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/grid/tria.h>
+
+#include <algorithm>
+
+namespace alluvium::run
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr int dim = Model::dim;
+
+    /** Criteria that look at the fluid see more on a finer mesh: they are asked until the mesh stays. */
+    void find_initial_mesh(Model &m)
+    {
+      constexpr unsigned int max_rounds = 10;
+      for (unsigned int round = 0; m.adaptivity.needs_fluid() && round < max_rounds; ++round)
+        {
+          if (!adapt_mesh(m))
+            break;
+          m.coupling.update_void_fraction(m.grains);
+        }
+    }
+
+
+    void set_up_fluid(Model &m, const double coarse_size, Checkpoint *from)
+    {
+      auto mesh = m.domain.make_triangulation(coarse_size);
+      m.adaptivity.check_mesh(*mesh);
+      count_cell_weights(m);
+      if (from)
+        from->load_mesh(*mesh);
+      m.adaptivity.balance(*mesh, m.cell_weights);
+      if (!from)
+        m.adaptivity.make_initial_mesh(*mesh, m.refinement_context());
+
+      m.boundary_conditions.initialize(
+        m.domain.boundary_ids(),
+        {{"rho", m.solver.properties.density},
+         {"eta", m.solver.properties.viscosity},
+         {"g", m.gravity_size()},
+         {"H", m.domain.upper()[1] - m.domain.lower()[1]},
+         {"L", m.initial_bed.empty() ? 0. : m.initial_bed.top() - m.initial_bed.bottom()},
+         {"d", mesh::mean_diameter(m.grains)},
+         {"pi", numbers::PI}});
+      const auto periodicity = m.domain.periodicity();
+      m.space.set_periodic_box({periodicity.lower, periodicity.length});
+      attach_mesh(m, std::move(mesh));
+      m.solver.choose_datum(m.boundary_conditions);
+      if (from)
+        from->load_fields(m);
+      m.coupling.update_void_fraction(m.grains);
+      if (!from)
+        find_initial_mesh(m);
+    }
+
+
+    /**
+     * The first prediction needs the contact forces at rest: without them the bed would "fall" in it. They come from a
+     * step of the contacts under the grains' reduced weight, whose motion is thrown away; or from some steps, if
+     * nothing moves in them: then the bed is known to be at rest when the run starts.
+     */
+    void find_initial_contact_forces(Model &m)
+    {
+      load_by_gravity(m);
+      if (m.has_fluid)
+        for (std::size_t i = 0; i < m.grains.n(); ++i)
+          {
+            const double displaced =
+              m.solver.properties.density * numbers::PI * m.grains.fluid_radius[i] * m.grains.fluid_radius[i];
+            m.loads.fx[i] -= displaced * m.gravity[0];
+            m.loads.fy[i] -= displaced * m.gravity[1];
+          }
+      grains::GrainArrays trial         = m.grains;
+      unsigned int        n_steps_tried = 0;
+      do
+        m.contact_report = m.contacts.advance(trial, m.loads, m.time_step, m.gravity);
+      while (m.contact_report.n_quiet == ++n_steps_tried);
+      m.touched    = m.contacts.touched();
+      m.grains.fcx = trial.fcx;
+      m.grains.fcy = trial.fcy;
+    }
+  } // namespace
+
+
+  void load_by_gravity(Model &m)
+  {
+    m.loads.reset(m.grains.n());
+    for (std::size_t i = 0; i < m.grains.n(); ++i)
+      {
+        m.loads.fx[i] = m.grains.mass[i] * m.gravity[0];
+        m.loads.fy[i] = m.grains.mass[i] * m.gravity[1];
+      }
+  }
+
+
+  void set_up(Model &m, const std::string &directory, Checkpoint *from)
+  {
+    m.parse_parameters();
+    m.domain.initialize(m.communicator, directory);
+    const auto walls = m.grain_setup.walls(m.domain);
+    m.contacts.set_walls(walls);
+    m.contacts.set_periodicity(m.domain.periodicity());
+    m.contacts.set_communicator(m.communicator);
+    m.grains                          = m.grain_setup.make(m.communicator, m.domain, walls, m.gravity, directory);
+    const std::array<double, 2> lower = {{m.domain.lower()[0], m.domain.lower()[1]}},
+                                upper = {{m.domain.upper()[0], m.domain.upper()[1]}};
+    const double largest              = 2. * *std::max_element(m.grains.radius.begin(), m.grains.radius.end());
+    m.initial_bed                     = mesh::find_bed_faces(m.grains, lower[0], upper[0]);
+    m.touched.assign(m.grains.n(), 0);
+    // also where the run restarts, the unrefined mesh is that of its beginning
+    const double coarse_size = m.domain.coarse_cell_size() > 0. || !m.has_fluid
+                                 ? m.domain.coarse_cell_size()
+                                 : m.adaptivity.coarse_size(m.refinement_context());
+    if (from)
+      from->load_grains(m);
+    if (m.has_fluid)
+      set_up_fluid(m, coarse_size, from);
+    m.store.initialize(m.grains, lower, upper, m.contacts.settings().skin * largest);
+    if (m.grains_move && !from)
+      find_initial_contact_forces(m);
+  }
+} // namespace alluvium::run
