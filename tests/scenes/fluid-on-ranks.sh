@@ -9,7 +9,10 @@ sed "s|^include .*|include $SCENES/data/bed.prm|" "$SCENES/suspension.prm" >susp
 common=(--set 'Output/Digits=15' --set 'Time/End time=0.008' --set 'Fluid/Linear solver/Tolerance=1e-14'
         --set 'Output/Observers=head, motion, support, bed') # flux has an imbalance, all round-off
 
-for scene in bed suspension; do
+cp suspension.prm spinning.prm
+
+for scene in bed suspension spinning; do
+  [ $scene = spinning ] && common+=(--set 'Coupling/Rotation=true')
   for ranks in 1 2 4; do
     must_run "$ranks" "$scene.prm" "${common[@]}" --set "Output/Output folder=$scene-$ranks"
   done
@@ -18,3 +21,6 @@ for scene in bed suspension; do
   done
   [ "$(wc -l <$scene-1/statistics.csv)" -eq 10 ] || fail "expected a row for every step"
 done
+# the torque is felt: the suspension that spins is another one
+cmp -s suspension-1/statistics.csv spinning-1/statistics.csv && fail "Rotation changes nothing"
+exit 0
