@@ -22,6 +22,8 @@ namespace alluvium::fluid
     constexpr double acceptable_residual = 1e-5;
     // of a diagonal entry of the velocity block over its row sum, above which ILU(0) needs too many iterations
     constexpr double diffusive_ratio = 20.;
+    // fresh, the cheap preconditioner needs about ten iterations or fails
+    constexpr unsigned int cheap_iterations = 60;
 
     std::string in_digits(const double x)
     {
@@ -50,9 +52,9 @@ namespace alluvium::fluid
       const TrilinosWrappers::PreconditionBase  &first_velocity, &last_velocity;
       const TrilinosWrappers::PreconditionAMG   &pressure;
       const std::vector<double>                 &mobility;
+      const Vector                              *inverse_mass; // where convection is strong
       double                                     scale;
-      mutable BlockVector                        r;
-      mutable Vector                             correction;
+      mutable BlockVector                        r, s;
 
       void vmult(BlockVector &dst, const BlockVector &src) const
       {
@@ -60,11 +62,26 @@ namespace alluvium::fluid
         matrix.block(1, 0).vmult(r.block(1), dst.block(0));
         r.block(1).sadd(-1., 1. / scale, src.block(1));
         pressure.vmult(dst.block(1), r.block(1));
+        if (inverse_mass)
+          commute(dst.block(1));
         for (unsigned int i = 0; i < mobility.size(); ++i)
           dst.block(1).local_element(i) += mobility[i] * r.block(1).local_element(i);
         matrix.block(0, 1).vmult(r.block(0), dst.block(1));
-        last_velocity.vmult(correction, r.block(0));
-        dst.block(0) -= correction;
+        last_velocity.vmult(s.block(0), r.block(0));
+        dst.block(0) -= s.block(0);
+      }
+
+      /** p becomes P^-1 (D + B^T M^-1 A M^-1 B) p. */
+      void commute(Vector &p) const
+      {
+        matrix.block(0, 1).vmult(r.block(0), p);
+        r.block(0).scale(*inverse_mass);
+        matrix.block(0, 0).vmult(s.block(0), r.block(0));
+        s.block(0).scale(*inverse_mass);
+        matrix.block(0, 1).Tvmult(r.block(1), s.block(0));
+        matrix.block(1, 1).vmult(s.block(1), p);
+        s.block(1) += r.block(1);
+        pressure.vmult(p, s.block(1));
       }
     };
   } // namespace
@@ -93,8 +110,8 @@ namespace alluvium::fluid
 
   void LinearSolver::clear()
   {
-    exists = false;
-    rigour = 0;
+    exists     = false;
+    convective = false;
     velocity.clear();
     coarse_velocity.clear();
     pressure.clear();
@@ -107,11 +124,13 @@ namespace alluvium::fluid
     const auto             &A    = matrix.block(0, 0);
     const Epetra_CrsMatrix &rows = A.trilinos_matrix();
     pressure.clear(); // while the matrix that its smoothers look at is still there
-    velocity.initialize(A, TrilinosWrappers::PreconditionILU::AdditionalData(rigour == 2 ? 2 : 0));
+    velocity.initialize(A, TrilinosWrappers::PreconditionILU::AdditionalData(0));
 
     // row sums; convection can turn the sign of those next to walls, whose columns are missing
-    TrilinosWrappers::MPI::Vector negative_inverse(A.locally_owned_range_indices(), A.get_mpi_communicator());
+    const auto                    absolute = [](const double sum, const double x) { return sum + std::abs(x); };
+    TrilinosWrappers::MPI::Vector inverse(A.locally_owned_range_indices(), A.get_mpi_communicator());
     double                        largest_ratio = 0.;
+    inverse_mass.reinit(scales.volumes.block(0), true);
     for (int i = 0; i < rows.NumMyRows(); ++i)
       {
         const types::global_dof_index row    = rows.GRID64(i);
@@ -119,13 +138,14 @@ namespace alluvium::fluid
         int                           n      = 0;
         double                       *value  = nullptr;
         rows.ExtractMyRowView(i, n, value);
-        const double diagonal = A.diag_element(row);
-        const double sum      = std::max(std::accumulate(value, value + n, 0.), 0.1 * scales.inertia * volume);
-        negative_inverse(row) = -1. / (rigour == 0 ? sum : diagonal);
-        largest_ratio         = std::max(largest_ratio, diagonal / sum);
+        const double sum              = std::max(std::accumulate(value, value + n, 0.), 0.1 * scales.inertia * volume);
+        const double mass             = convective ? std::accumulate(value, value + n, 0., absolute) : sum;
+        inverse(row)                  = 1. / mass;
+        inverse_mass.local_element(i) = 1. / mass;
+        largest_ratio                 = std::max(largest_ratio, A.diag_element(row) / sum);
       }
-    negative_inverse.compress(VectorOperation::insert);
-    diffusive = rigour == 0 && Utilities::MPI::max(largest_ratio, A.get_mpi_communicator()) > diffusive_ratio;
+    inverse.compress(VectorOperation::insert);
+    diffusive = !convective && Utilities::MPI::max(largest_ratio, A.get_mpi_communicator()) > diffusive_ratio;
     if (diffusive)
       {
         TrilinosWrappers::PreconditionAMG::AdditionalData data;
@@ -142,9 +162,15 @@ namespace alluvium::fluid
 
     mobility.clear();
     for (unsigned int i = 0; i < scales.volumes.block(1).locally_owned_size(); ++i)
-      mobility.push_back(rigour == 0 ? scales.viscosity / scales.volumes.block(1).local_element(i) : 0.);
+      mobility.push_back(convective ? 0. : scales.viscosity / scales.volumes.block(1).local_element(i));
     TrilinosWrappers::SparseMatrix product;
-    matrix.block(1, 0).mmult(product, matrix.block(0, 1), negative_inverse);
+    if (convective)
+      matrix.block(0, 1).Tmmult(product, matrix.block(0, 1), inverse);
+    else
+      {
+        inverse *= -1.;
+        matrix.block(1, 0).mmult(product, matrix.block(0, 1), inverse);
+      }
     // the union of both patterns: rows of prescribed pressures have no entry in C B
     Epetra_CrsMatrix *sum = nullptr;
     EpetraExt::MatrixMatrix::Add(
@@ -157,9 +183,9 @@ namespace alluvium::fluid
     data.elliptic              = true;
     data.higher_order_elements = false;
     data.aggregation_threshold = 0.02;
-    data.smoother_type         = rigour == 0 ? "ILU" : "Chebyshev";
-    data.smoother_sweeps       = rigour == 0 ? 1 : 2;
-    data.smoother_overlap = rigour == 0; // as many iterations on two ranks as on one; on the velocity it would do harm
+    data.smoother_type         = convective ? "Chebyshev" : "ILU";
+    data.smoother_sweeps       = convective ? 2 : 1;
+    data.smoother_overlap = !convective; // as many iterations on two ranks as on one; on the velocity it would do harm
     pressure.initialize(*schur, data);
     exists = true;
     fresh  = true;
@@ -187,14 +213,16 @@ namespace alluvium::fluid
       build(matrix);
     for (bool retry = true; retry;)
       {
-        SolverControl                                     control(max_iterations, target, false, false);
+        const unsigned int limit = convective ? max_iterations : std::min(max_iterations, cheap_iterations);
+        SolverControl      control(limit, target, false, false);
         typename SolverGMRES<BlockVector>::AdditionalData data;
-        data.max_n_tmp_vectors     = rigour == 2 ? 150 : 60;
+        data.max_n_tmp_vectors     = convective ? 100 : 60;
         data.right_preconditioning = true;
         SolverGMRES<BlockVector>                  gmres(control, data);
         const TrilinosWrappers::PreconditionBase &first =
           diffusive ? static_cast<const TrilinosWrappers::PreconditionBase &>(coarse_velocity) : velocity;
-        const BlockFactors preconditioner{matrix, first, velocity, pressure, mobility, ratio, rhs, rhs.block(0)};
+        const BlockFactors preconditioner{
+          matrix, first, velocity, pressure, mobility, convective ? &inverse_mass : nullptr, ratio, rhs, rhs};
         x     = 0.;
         retry = false;
         try
@@ -203,10 +231,10 @@ namespace alluvium::fluid
           }
         catch (const SolverControl::NoConvergence &)
           {
-            // an old preconditioner gets a second chance as a fresh one, a fresh one as a more rigorous one
-            if (!fresh || rigour < 2)
+            // an old preconditioner gets a second chance as a fresh one, a fresh one as that for strong convection
+            if (!fresh || !convective)
               {
-                rigour += fresh;
+                convective = convective || fresh;
                 build(matrix);
                 retry = true;
                 continue;

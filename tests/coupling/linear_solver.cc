@@ -34,7 +34,7 @@ TEST(LinearSolver, NeedsFewIterationsFromCoarseToFineAndFromShortToLongSteps)
       }
 }
 
-TEST(LinearSolver, AMoreRigorousOneHasATryWhereAFreshOneFails)
+TEST(LinearSolver, OneForStrongConvectionHasATryWhereAFreshOneFails)
 {
   Settings s; // water that crosses eight cells a step
   s.h_over_d     = 0.5;

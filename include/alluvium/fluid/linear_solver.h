@@ -30,8 +30,12 @@ namespace alluvium::fluid
    * one V-cycle, smoothed with ILU(0), on D - C M^-1 B, plus viscosity over volume on the diagonal (Cahouet and
    * Chabard, Int. J. Numer. Methods Fluids 8, 1988); M are the row sums of A: inertia and drag, in which diffusion
    * cancels. The preconditioner is kept over steps and rebuilt when it has become clearly worse than when it was fresh.
-   * Where it fails (fast flow through fine cells in long steps: convection) the diagonal of A in place of its row sums
-   * has a try, and then ILU(2) and a longer memory of GMRES.
+   *
+   * Where that fails, convection is strong: fast flow through fine cells in long steps. Then C is the problem, in which
+   * the stabilisation has a share of the whole momentum equation; it cancels against D as long as A^-1 stands beside
+   * it, but not with M^-1 in its place. So P = D + B^T M^-1 B, where M are sums of the rows' absolute values, and S^-1
+   * = P^-1 (D + B^T M^-1 A M^-1 B) P^-1, the least-squares commutator (Elman et al., SIAM J. Sci. Comput. 27, 2006; 30,
+   * 2007 for stabilised elements).
    */
   class LinearSolver
   {
@@ -62,11 +66,11 @@ namespace alluvium::fluid
   private:
     void build(const dealii::TrilinosWrappers::BlockSparseMatrix &matrix);
 
-    bool                              fresh = false, exists = false, diffusive = false;
-    unsigned int                      rigour       = 0; // one more each time that a fresh preconditioner fails, up to 2
-    unsigned int                      n_when_fresh = 0;
-    std::vector<double>               mobility; // viscosity over volume, owned pressures [Pa s/m^dim]
-    std::unique_ptr<Epetra_CrsMatrix> schur;
+    bool                                      fresh = false, exists = false, diffusive = false, convective = false;
+    unsigned int                              n_when_fresh = 0;
+    Vector                                    inverse_mass;
+    std::vector<double>                       mobility; // viscosity over volume, owned pressures [Pa s/m^dim]
+    std::unique_ptr<Epetra_CrsMatrix>         schur;
     dealii::TrilinosWrappers::PreconditionILU velocity;
     dealii::TrilinosWrappers::PreconditionAMG coarse_velocity, pressure;
   };
