@@ -1,4 +1,5 @@
 #include <alluvium/coupling/overlap_map.h>
+#include <alluvium/geometry/grid_cutter.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/mpi.h>
@@ -14,59 +15,6 @@ namespace alluvium::coupling
 
   namespace
   {
-    /**
-     * The grains, and their images that reach into the domain from beside it: shifted by the length of a periodic box,
-     * mirrored at straight sides. What of a grain's disc leaves the domain there comes back in, so that grains which
-     * fill the domain evenly fill it evenly up to its sides.
-     */
-    struct GrainImages
-    {
-      std::vector<double>                x, y;
-      std::vector<unsigned int>          grain;  // the one it is an image of
-      std::vector<std::array<double, 2>> offset; // of a mirror image's centre from the grain's [m]
-
-      GrainImages(const std::vector<double>                &grain_x,
-                  const std::vector<double>                &grain_y,
-                  const double                              reach,
-                  const fluid::FluidSpace<2>::PeriodicBox  &box,
-                  const std::array<std::vector<double>, 2> &mirrors)
-        : x(grain_x)
-        , y(grain_y)
-        , grain(grain_x.size())
-        , offset(grain_x.size())
-      {
-        std::iota(grain.begin(), grain.end(), 0u);
-        for (unsigned int d = 0; d < 2; ++d)
-          {
-            const std::size_t n = x.size(); // images of images in the second direction: the corners
-            for (std::size_t k = 0; k < n; ++k)
-              {
-                const double here = d == 0 ? x[k] : y[k];
-                if (box.length[d] > 0.)
-                  {
-                    for (const double shift : {-box.length[d], box.length[d]})
-                      if (here + shift > box.lower[d] - reach && here + shift < box.lower[d] + box.length[d] + reach)
-                        add(k, d, here + shift, 0.);
-                  }
-                else
-                  for (const double side : mirrors[d])
-                    if (std::abs(here - side) < reach)
-                      add(k, d, 2. * side - here, 2. * (side - here));
-              }
-          }
-      }
-
-    private:
-      void add(const std::size_t k, const unsigned int d, const double moved, const double off)
-      {
-        x.push_back(d == 0 ? moved : x[k]);
-        y.push_back(d == 1 ? moved : y[k]);
-        grain.push_back(grain[k]);
-        offset.push_back(offset[k]);
-        offset.back()[d] += off;
-      }
-    };
-
     /** Discs sorted into square bins, so that a cell finds the discs near it. */
     class GrainBins
     {
@@ -138,6 +86,15 @@ namespace alluvium::coupling
       std::vector<std::uint8_t> marked;
     };
 
+    /** Pieces that were, by cell. */
+    struct PieceStore
+    {
+      std::vector<unsigned int>         begin;
+      std::vector<fluid::PieceShape<2>> shape;
+      std::vector<unsigned int>         grain;
+      std::vector<double>               raw_area;
+    };
+
     /** The whole cell as the piece of a disc with its centre in it, on its edges too; else nothing. */
     geometry::Overlap cell_of_centre(const geometry::Point2 &centre, const geometry::PreparedPolygon &cell)
     {
@@ -149,6 +106,62 @@ namespace alluvium::coupling
       return {cell.area, centroid, cell.second_moments, {{centroid[0] - centre[0], centroid[1] - centre[1]}}};
     }
   } // namespace
+
+
+  /**
+   * The grains, and their images that reach into the domain from beside it: shifted by the length of a periodic box,
+   * mirrored at straight sides. What of a grain's disc leaves the domain there comes back in, so that grains which
+   * fill the domain evenly fill it evenly up to its sides.
+   */
+  struct OverlapMap::Images
+  {
+    Images() = default;
+
+    std::vector<double>                x, y;
+    std::vector<unsigned int>          grain;  // the one it is an image of
+    std::vector<std::array<double, 2>> offset; // of a mirror image's centre from the grain's [m]
+
+    Images(const std::vector<double>                &grain_x,
+           const std::vector<double>                &grain_y,
+           const double                              reach,
+           const fluid::FluidSpace<2>::PeriodicBox  &box,
+           const std::array<std::vector<double>, 2> &mirrors)
+      : x(grain_x)
+      , y(grain_y)
+      , grain(grain_x.size())
+      , offset(grain_x.size())
+    {
+      std::iota(grain.begin(), grain.end(), 0u);
+      for (unsigned int d = 0; d < 2; ++d)
+        {
+          const std::size_t n = x.size(); // images of images in the second direction: the corners
+          for (std::size_t k = 0; k < n; ++k)
+            {
+              const double here = d == 0 ? x[k] : y[k];
+              if (box.length[d] > 0.)
+                {
+                  for (const double shift : {-box.length[d], box.length[d]})
+                    if (here + shift > box.lower[d] - reach && here + shift < box.lower[d] + box.length[d] + reach)
+                      add(k, d, here + shift, 0.);
+                }
+              else
+                for (const double side : mirrors[d])
+                  if (std::abs(here - side) < reach)
+                    add(k, d, 2. * side - here, 2. * (side - here));
+            }
+        }
+    }
+
+  private:
+    void add(const std::size_t k, const unsigned int d, const double moved, const double off)
+    {
+      x.push_back(d == 0 ? moved : x[k]);
+      y.push_back(d == 1 ? moved : y[k]);
+      grain.push_back(grain[k]);
+      offset.push_back(offset[k]);
+      offset.back()[d] += off;
+    }
+  };
 
 
   OverlapMap::OverlapMap(const fluid::FluidSpace<dim> &space)
@@ -170,6 +183,7 @@ namespace alluvium::coupling
           polygon.vertex[n == 4 && v >= 2 ? 5 - v : v] = {{cell.vertex[v][0], cell.vertex[v][1]}};
         polygons.emplace_back(polygon);
       }
+    grid = geometry::RectangleGrid(polygons);
     find_mirrors();
   }
 
@@ -251,17 +265,48 @@ namespace alluvium::coupling
           position.x[g] = grains.x[g];
           position.y[g] = grains.y[g];
         }
-    const GrainImages images(position.x, position.y, max_radius, box, mirrors);
-    GrainBins         bins(images.x, images.y, max_radius);
+    const Images now(position.x, position.y, max_radius, box, mirrors);
+    const Images then = all ? Images() : Images(before.x, before.y, max_radius, box, mirrors);
+    if (!grid.empty() && settings.rule != OverlapSettings::Rule::centre && !settings.keep_arms)
+      cut_on_grid(now, then, moved, settings);
+    else
+      cut_cells(now, then, moved, settings);
+    pieces.exchange.resize(pieces.shape.size());
+
+    std::vector<double> weight(grains.n(), 0.);
+    for (std::size_t k = 0; k < raw_area.size(); ++k)
+      weight[grain_of_piece[k]] += raw_area[k];
+    sum_over_ranks(weight);
+    for (std::size_t g = 0; g < grains.n(); ++g)
+      {
+        check_user(weight[g] > 0.,
+                   "Grain " + std::to_string(grains.id[g]) + " at (" + std::to_string(grains.x[g]) + ", " +
+                     std::to_string(grains.y[g]) + ") m has left the fluid's domain.");
+        weight[g] = numbers::PI * grains.fluid_radius[g] * grains.fluid_radius[g] / weight[g];
+      }
+    for (std::size_t k = 0; k < raw_area.size(); ++k)
+      pieces.shape[k].area = raw_area[k] * weight[grain_of_piece[k]];
+    return true;
+  }
+
+
+  void OverlapMap::cut_cells(const Images                    &now,
+                             const Images                    &before,
+                             const std::vector<std::uint8_t> &moved,
+                             const OverlapSettings           &settings)
+  {
+    const bool   all        = before.x.empty();
+    const double max_radius = *std::max_element(position.radius.begin(), position.radius.end());
+    GrainBins    bins(now.x, now.y, max_radius);
     if (!all)
       {
-        const auto mark = [&](const GrainImages &now) {
-          for (std::size_t k = 0; k < now.x.size(); ++k)
-            if (moved[now.grain[k]])
-              bins.mark(now.x[k], now.y[k]);
+        const auto mark = [&](const Images &images) {
+          for (std::size_t k = 0; k < images.x.size(); ++k)
+            if (moved[images.grain[k]])
+              bins.mark(images.x[k], images.y[k]);
         };
-        mark(GrainImages(before.x, before.y, max_radius, box, mirrors));
-        mark(images);
+        mark(before);
+        mark(now);
       }
 
     const fluid::InterphaseTerms<dim> old_pieces = std::move(pieces);
@@ -287,15 +332,15 @@ namespace alluvium::coupling
             bins.find(low, high, candidates);
             for (const unsigned int k : candidates)
               {
-                const unsigned int     g      = images.grain[k];
-                const geometry::Point2 centre = {{images.x[k], images.y[k]}};
+                const unsigned int     g      = now.grain[k];
+                const geometry::Point2 centre = {{now.x[k], now.y[k]}};
                 geometry::Overlap      o      = settings.rule == OverlapSettings::Rule::centre
                                                   ? cell_of_centre(centre, polygon)
                                                   : geometry::overlap({centre, position.radius[g]}, polygon);
                 if (o.area > 0.)
                   {
                     for (unsigned int d = 0; d < dim; ++d)
-                      o.arm[d] += images.offset[k][d];
+                      o.arm[d] += now.offset[k][d];
                     add_piece(c, g, o, settings);
                   }
               }
@@ -311,22 +356,75 @@ namespace alluvium::coupling
           }
         pieces.begin.push_back(pieces.shape.size());
       }
-    pieces.exchange.resize(pieces.shape.size());
+  }
 
-    std::vector<double> weight(grains.n(), 0.);
-    for (std::size_t k = 0; k < raw_area.size(); ++k)
-      weight[grain_of_piece[k]] += raw_area[k];
-    sum_over_ranks(weight);
-    for (std::size_t g = 0; g < grains.n(); ++g)
+
+  void OverlapMap::cut_on_grid(const Images                    &now,
+                               const Images                    &before,
+                               const std::vector<std::uint8_t> &moved,
+                               const OverlapSettings           &settings)
+  {
+    // cells that grains left or entered, or moved in; empty: all
+    std::vector<std::uint8_t> wanted(before.x.empty() ? 0 : polygons.size(), 0);
+    for (const Images *images : {&before, &now})
+      for (std::size_t k = 0; k < images->x.size() && !wanted.empty(); ++k)
+        if (moved[images->grain[k]])
+          {
+            const double r = position.radius[images->grain[k]], x = images->x[k], y = images->y[k];
+            grid.for_each_cell({{x - r, y - r}}, {{x + r, y + r}}, [&](const unsigned int c) { wanted[c] = 1; });
+          }
+
+    geometry::GridCutter             cutter(grid, polygons);
+    std::vector<geometry::GridPiece> found; // in the order of the grains
+    std::vector<unsigned int>        grain_found;
+    found.reserve(1.1 * pieces.shape.size());
+    grain_found.reserve(1.1 * pieces.shape.size());
+    for (std::size_t k = 0; k < now.x.size(); ++k)
       {
-        check_user(weight[g] > 0.,
-                   "Grain " + std::to_string(grains.id[g]) + " at (" + std::to_string(grains.x[g]) + ", " +
-                     std::to_string(grains.y[g]) + ") m has left the fluid's domain.");
-        weight[g] = numbers::PI * grains.fluid_radius[g] * grains.fluid_radius[g] / weight[g];
+        cutter.cut({{{now.x[k], now.y[k]}}, position.radius[now.grain[k]]}, wanted, found);
+        grain_found.resize(found.size(), now.grain[k]);
       }
-    for (std::size_t k = 0; k < raw_area.size(); ++k)
-      pieces.shape[k].area = raw_area[k] * weight[grain_of_piece[k]];
-    return true;
+
+    // in the order of the cells
+    PieceStore old;
+    if (!wanted.empty())
+      old = {std::move(pieces.begin), std::move(pieces.shape), std::move(grain_of_piece), std::move(raw_area)};
+    pieces.begin.assign(polygons.size() + 1, 0);
+    for (const auto &piece : found)
+      ++pieces.begin[piece.cell + 1];
+    for (unsigned int c = 0; c < polygons.size(); ++c)
+      pieces.begin[c + 1] += pieces.begin[c] + (wanted.empty() || wanted[c] ? 0 : old.begin[c + 1] - old.begin[c]);
+    pieces.shape.resize(pieces.begin.back());
+    grain_of_piece.resize(pieces.begin.back());
+    raw_area.resize(pieces.begin.back());
+    arm_of_piece.clear();
+    std::vector<unsigned int> next(pieces.begin.begin(), pieces.begin.end() - 1);
+    for (std::size_t i = 0; i < found.size(); ++i)
+      {
+        const auto        &piece = found[i];
+        const unsigned int k     = next[piece.cell]++;
+        const double       xi = piece.xi, eta = piece.eta;
+        const double       product = settings.rule == OverlapSettings::Rule::moments ? piece.product : xi * eta;
+        const auto        &per     = grid.cell(piece.cell).inverse_length;
+        auto              &s       = pieces.shape[k];
+        s.phi                      = {{1. - xi - eta + product, xi - product, eta - product, product}};
+        s.grad                     = {{{{(eta - 1.) * per[0], (xi - 1.) * per[1]}},
+                                       {{(1. - eta) * per[0], -xi * per[1]}},
+                                       {{-eta * per[0], (1. - xi) * per[1]}},
+                                       {{eta * per[0], xi * per[1]}}}};
+        s.full                     = piece.full;
+        grain_of_piece[k]          = grain_found[i];
+        raw_area[k]                = piece.area;
+      }
+    if (!wanted.empty())
+      for (unsigned int c = 0; c < polygons.size(); ++c)
+        if (!wanted[c])
+          {
+            const auto from = old.begin[c], to = old.begin[c + 1], at = pieces.begin[c];
+            std::copy(old.shape.begin() + from, old.shape.begin() + to, pieces.shape.begin() + at);
+            std::copy(old.grain.begin() + from, old.grain.begin() + to, grain_of_piece.begin() + at);
+            std::copy(old.raw_area.begin() + from, old.raw_area.begin() + to, raw_area.begin() + at);
+          }
   }
 
 

@@ -3,6 +3,7 @@
 #include <alluvium/fluid/fluid_space.h>
 #include <alluvium/fluid/interphase.h>
 #include <alluvium/geometry/disc_polygon_overlap.h>
+#include <alluvium/geometry/rectangle_grid.h>
 #include <alluvium/grains/grain_arrays.h>
 
 namespace alluvium::coupling
@@ -73,6 +74,18 @@ namespace alluvium::coupling
     void sum_over_ranks(std::vector<double> &per_grain) const;
 
   private:
+    struct Images;
+
+    /** Replace the pieces by those of @p now: in all cells, or in those that grains near them have moved. */
+    void cut_on_grid(const Images                    &now,
+                     const Images                    &before,
+                     const std::vector<std::uint8_t> &moved,
+                     const OverlapSettings           &settings);
+    /** The same, cell by cell and for cells of any shape. */
+    void cut_cells(const Images                    &now,
+                   const Images                    &before,
+                   const std::vector<std::uint8_t> &moved,
+                   const OverlapSettings           &settings);
     /** Find the sides of the domain's bounding box along which its boundary runs from end to end. */
     void find_mirrors();
     /** Bring @p position up to date; which grains moved. */
@@ -84,6 +97,7 @@ namespace alluvium::coupling
 
     const fluid::FluidSpace<dim>          *space;
     std::vector<geometry::PreparedPolygon> polygons;
+    geometry::RectangleGrid                grid;    // of the same; empty where they are no rectangles
     std::array<std::vector<double>, dim>   mirrors; // [direction]: where the straight sides are [m]
     fluid::InterphaseTerms<dim>            pieces;
     std::vector<unsigned int>              grain_of_piece;
