@@ -163,8 +163,11 @@ namespace alluvium::coupling
         loads       = last_loads;
         return;
       }
+    auto state_before    = std::move(latest_state);
     latest_state         = std::make_unique<CouplingState>(grains, touched, map, dt);
     CouplingState &state = *latest_state;
+    if (state_before)
+      state.take_memory_of(*state_before);
     repeated_with.clear();
     find_state(state);
 
@@ -207,12 +210,11 @@ namespace alluvium::coupling
 
   void Coupling::find_loads(const TimeScheme &scheme, const CouplingState &state, grains::GrainLoads &loads)
   {
-    const std::vector<PieceField> lag_of_sweep = evaluate(map, *space, latest_sweep);
-    collect_forces(state, lag_of_sweep);
+    collect_forces(state);
     loads.reset(state.grains.n());
     scheme.loads(state, force, loads);
     if (rotation)
-      find_torques(state, lag_of_sweep, loads);
+      find_torques(state, loads);
     last_loads = loads;
   }
 
@@ -267,8 +269,8 @@ namespace alluvium::coupling
   {
     state.gravity       = {{solver->gravity[0], solver->gravity[1]}};
     state.fluid_density = solver->properties.density;
-    state.old           = evaluate(map, *space, solver->old());
-    state.latest        = state.old;
+    evaluate(map, *space, solver->old(), state.old);
+    state.latest = state.old;
     if (rotation)
       state.old_gradient = state.latest_gradient = velocity_gradients(map, *space, solver->old());
     find_drag(state);
@@ -308,7 +310,8 @@ namespace alluvium::coupling
 
   void Coupling::look_at(const fluid::BlockVector &field, CouplingState &state) const
   {
-    state.latest = evaluate(map, *space, field);
+    state.before_latest.swap(state.latest);
+    evaluate(map, *space, field, state.latest);
     if (rotation)
       state.latest_gradient = velocity_gradients(map, *space, field);
   }
@@ -330,10 +333,11 @@ namespace alluvium::coupling
           s.eps                = 0.;
           for (unsigned int v = 0; v < n; ++v)
             s.eps += terms.shape[k].phi[v] * eps.local_element(space->cells()[c].node[v]);
-          const auto spin = state.spin_velocity(k);
-          s.slip          = std::hypot(state.old[k].u[0] - state.grains.vx[g] - spin[0],
-                              state.old[k].u[1] - state.grains.vy[g] - spin[1]);
-          s.diameter      = 2. * state.grains.fluid_radius[g];
+          const auto   spin = state.spin_velocity(k);
+          const double ux   = state.old[k].u[0] - state.grains.vx[g] - spin[0];
+          const double uy   = state.old[k].u[1] - state.grains.vy[g] - spin[1];
+          s.slip            = std::sqrt(ux * ux + uy * uy);
+          s.diameter        = 2. * state.grains.fluid_radius[g];
           drag_means[2 * g] += terms.shape[k].area * s.eps;
           drag_means[2 * g + 1] += terms.shape[k].area * s.reynolds();
           state.gamma[k] = regularisation.gamma(law, s);
@@ -361,9 +365,7 @@ namespace alluvium::coupling
   }
 
 
-  void Coupling::find_torques(const CouplingState           &state,
-                              const std::vector<PieceField> &lag_of_sweep,
-                              grains::GrainLoads            &loads)
+  void Coupling::find_torques(const CouplingState &state, grains::GrainLoads &loads)
   {
     GrainTorques torques = grain_torques(state);
     loads.torque         = std::move(torques.torque);
@@ -378,7 +380,7 @@ namespace alluvium::coupling
         const auto        &x = exchange[k];
         const unsigned int g = map.grain()[k];
         const double       b = x.gamma * x.compliance, area = map.terms().shape[k].area;
-        const auto         f   = piece_force(state, k, lag_of_sweep).force;
+        const auto         f   = piece_force(state, k).force;
         const auto        &arm = map.arms()[k].arm;
         const auto        &c   = map.arms()[k].moments;
         sum += area * ((state.grains.x[g] + arm[0]) * f[1] - (state.grains.y[g] + arm[1]) * f[0]);
@@ -390,14 +392,12 @@ namespace alluvium::coupling
   }
 
 
-  Coupling::PieceForce Coupling::piece_force(const CouplingState           &state,
-                                             const std::size_t              k,
-                                             const std::vector<PieceField> &lag_of_sweep) const
+  Coupling::PieceForce Coupling::piece_force(const CouplingState &state, const std::size_t k) const
   {
     const auto       &x = map.terms().exchange[k];
     const auto       &f = state.latest[k];
     const PieceField  none{};
-    const PieceField &lag = x.reference == 0 ? none : x.reference == 1 ? state.old[k] : lag_of_sweep[k];
+    const PieceField &lag = x.reference == 0 ? none : x.reference == 1 ? state.old[k] : state.before_latest[k];
     const double      b   = x.gamma * x.compliance;
     PieceForce        result;
     for (unsigned int d = 0; d < dim; ++d)
@@ -409,14 +409,14 @@ namespace alluvium::coupling
   }
 
 
-  void Coupling::collect_forces(const CouplingState &state, const std::vector<PieceField> &lag_of_sweep)
+  void Coupling::collect_forces(const CouplingState &state)
   {
     const auto            &terms = map.terms();
     constexpr unsigned int n     = 7;
     std::vector<double>    sums(n * state.grains.n(), 0.);
     for (std::size_t k = 0; k < terms.n_pieces(); ++k)
       {
-        const PieceForce   f = piece_force(state, k, lag_of_sweep);
+        const PieceForce   f = piece_force(state, k);
         const unsigned int g = map.grain()[k];
         for (unsigned int d = 0; d < dim; ++d)
           {
@@ -450,10 +450,9 @@ namespace alluvium::coupling
 
   std::vector<std::array<double, 2>> Coupling::piece_velocities() const
   {
-    const auto                         lag_of_sweep = evaluate(map, *space, latest_sweep);
     std::vector<std::array<double, 2>> result;
     for (std::size_t k = 0; k < map.grain().size(); ++k)
-      result.push_back(piece_force(*latest_state, k, lag_of_sweep).velocity);
+      result.push_back(piece_force(*latest_state, k).velocity);
     return result;
   }
 

@@ -279,9 +279,9 @@ namespace alluvium::coupling
     sum_over_ranks(weight);
     for (std::size_t g = 0; g < grains.n(); ++g)
       {
-        check_user(weight[g] > 0.,
-                   "Grain " + std::to_string(grains.id[g]) + " at (" + std::to_string(grains.x[g]) + ", " +
-                     std::to_string(grains.y[g]) + ") m has left the fluid's domain.");
+        if (!(weight[g] > 0.)) // a message for every grain would cost more than cutting it
+          throw UserError("Grain " + std::to_string(grains.id[g]) + " at (" + std::to_string(grains.x[g]) + ", " +
+                          std::to_string(grains.y[g]) + ") m has left the fluid's domain.");
         weight[g] = numbers::PI * grains.fluid_radius[g] * grains.fluid_radius[g] / weight[g];
       }
     for (std::size_t k = 0; k < raw_area.size(); ++k)
@@ -405,13 +405,8 @@ namespace alluvium::coupling
         const unsigned int k     = next[piece.cell]++;
         const double       xi = piece.xi, eta = piece.eta;
         const double       product = settings.rule == OverlapSettings::Rule::moments ? piece.product : xi * eta;
-        const auto        &per     = grid.cell(piece.cell).inverse_length;
         auto              &s       = pieces.shape[k];
         s.phi                      = {{1. - xi - eta + product, xi - product, eta - product, product}};
-        s.grad                     = {{{{(eta - 1.) * per[0], (xi - 1.) * per[1]}},
-                                       {{(1. - eta) * per[0], -xi * per[1]}},
-                                       {{-eta * per[0], (1. - xi) * per[1]}},
-                                       {{eta * per[0], xi * per[1]}}}};
         s.full                     = piece.full;
         grain_of_piece[k]          = grain_found[i];
         raw_area[k]                = piece.area;
@@ -449,10 +444,6 @@ namespace alluvium::coupling
         s.phi[1]         = (x[0] * f[1] - x[1] * f[0]) / det;
         s.phi[2]         = (e[0] * x[1] - e[1] * x[0]) / det;
         s.phi[0]         = 1. - s.phi[1] - s.phi[2];
-        s.grad[1]        = {{f[1] / det, -f[0] / det}};
-        s.grad[2]        = {{-e[1] / det, e[0] / det}};
-        for (unsigned int d = 0; d < 2; ++d)
-          s.grad[0][d] = -s.grad[1][d] - s.grad[2][d];
       }
     else
       {
@@ -485,11 +476,6 @@ namespace alluvium::coupling
                                        : 0.; // mean of (xi - xi_c)(eta - eta_c)
         const double product = xi * eta + second;
         s.phi                = {{1. - xi - eta + product, xi - product, eta - product, product}};
-        const std::array<std::array<double, 2>, 4> reference = {
-          {{{eta - 1., xi - 1.}}, {{1. - eta, -xi}}, {{-eta, 1. - xi}}, {{eta, xi}}}};
-        for (unsigned int i = 0; i < 4; ++i)
-          s.grad[i] = {{(reference[i][0] * b[1] - reference[i][1] * a[1]) / det,
-                        (-reference[i][0] * b[0] + reference[i][1] * a[0]) / det}};
       }
     s.full = o.area == polygons[cell].area;
     pieces.shape.push_back(s);

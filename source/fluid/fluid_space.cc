@@ -1,4 +1,5 @@
 #include <alluvium/fluid/fluid_space.h>
+#include <alluvium/fluid/piece_gradients.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -351,6 +352,8 @@ namespace alluvium::fluid
             }
           else
             data.parallelogram = true;
+          if constexpr (dim == 2)
+            data.to_reference = inverse_jacobian(data.vertex[1] - data.vertex[0], data.vertex[2] - data.vertex[0]);
           cell_data.push_back(data);
 
           dealii::Vector<double> local(n_nodes);

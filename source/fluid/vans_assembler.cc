@@ -1,3 +1,4 @@
+#include <alluvium/fluid/bilinear_moments.h>
 #include <alluvium/fluid/vans_assembler.h>
 
 #include <deal.II/base/utilities.h>
@@ -123,12 +124,12 @@ namespace alluvium::fluid
 
       /**
        * The terms of the pieces: drag, the solid's share of the pressure gradient, its velocity in the continuity
-       * equation. Full pieces, most of them where cells are smaller than the filter, are added up first.
+       * equation. On parallelograms their moments are added up first.
        */
       void add_pieces(LocalMatrix &L) const
       {
-        PieceFactors           full{};
-        const PieceShape<dim> *full_shape = nullptr;
+        const bool   by_moments = n == 4 && cell->parallelogram && problem.discretisation.lumped_drag;
+        PieceMoments moments;
         for (unsigned int k = begin; k < end; ++k)
           {
             const PieceShape<dim>    &s = problem.solid->shape[k];
@@ -139,19 +140,17 @@ namespace alluvium::fluid
             f.lift   = s.area * (1. - b);
             f.flux_u = pspg * f.drag - s.area * b;
             f.flux_p = s.area * x.compliance - pspg * f.lift;
-            if (s.full)
-              {
-                full += f;
-                full_shape = &s;
-              }
+            if (by_moments)
+              moments.add(f, s);
             else
               add_shape(s, f, L);
             if constexpr (dim == 2)
               if (!problem.solid->spin.empty())
                 add_spin(k, f.drag, L);
           }
-        if (full_shape)
-          add_shape(*full_shape, full, L);
+        if constexpr (n == 4)
+          if (by_moments && has_pieces())
+            add_moments(moments, L);
       }
 
       /**
@@ -163,14 +162,14 @@ namespace alluvium::fluid
       {
         const PieceShape<dim> &s     = problem.solid->shape[k];
         const PieceSpin       &spin  = problem.solid->spin[k];
-        const auto             arms  = spin_arms(s, spin);
+        const auto             grad  = piece_gradients<n>(*cell, s.phi);
+        const auto             arms  = spin_arms(grad, spin);
         const auto            &x     = problem.solid->exchange[k];
         const double           gamma = s.area * spin.gamma * (1. - x.gamma * x.compliance);
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = 0; j < n; ++j)
             for (unsigned int c = 0; c < dim; ++c)
-              L[i * (dim + 1) + c][j * (dim + 1) + c] +=
-                gamma * (arms[i][0] * s.grad[j][0] + arms[i][1] * s.grad[j][1]);
+              L[i * (dim + 1) + c][j * (dim + 1) + c] += gamma * (arms[i][0] * grad[j][0] + arms[i][1] * grad[j][1]);
         if (!problem.discretisation.lumped_drag)
           return;
         const auto turn = rotation_of_nodes(s);
@@ -223,34 +222,66 @@ namespace alluvium::fluid
       /** Add the terms that the pieces know: a, e and u_ref. */
       void known_pieces(LocalVector &r) const
       {
-        KnownFactors           full{};
-        const PieceShape<dim> *full_shape = nullptr;
+        if (!has_pieces())
+          return;
+        // the reference velocities' nodal values
+        std::array<std::array<std::array<double, n>, dim>, 3> reference{};
+        for (unsigned int i = 0; i < reference.size(); ++i)
+          if (problem.reference[i])
+            for (unsigned int v = 0; v < n; ++v)
+              for (unsigned int d = 0; d < dim; ++d)
+                reference[i][d][v] = problem.reference[i]->local_element(cell->velocity[v][d]);
+        const bool lumped = problem.discretisation.lumped_drag;
+        const bool affine = n == 4 && cell->parallelogram;
+        // of drag b on each reference velocity, and times its mean over the piece, against shape functions
+        std::array<std::array<double, n>, 3>   lumped_drag{};
+        std::array<std::array<double, n>, dim> lumped_mean{};
+        KnownSums                              sums{};
         for (unsigned int k = begin; k < end; ++k)
           {
             const PieceShape<dim>    &s = problem.solid->shape[k];
             const PieceExchange<dim> &x = problem.solid->exchange[k];
             const double              b = problem.reference[x.reference] ? x.gamma * x.compliance : 0.;
-            KnownFactors              f{};
+            std::array<double, dim>   velocity, force;
             for (unsigned int d = 0; d < dim; ++d)
               {
-                f.a[d] = s.area * x.a[d];
-                f.e[d] = s.area * (x.gamma * x.a[d] - x.e[d]);
+                velocity[d] = s.area * x.a[d];
+                force[d]    = s.area * (x.gamma * x.a[d] - x.e[d]);
               }
-            f.flux[x.reference] = s.area * b;
-            f.drag[x.reference] = s.area * x.gamma * b;
-            if (s.full)
+            if (b != 0.)
               {
-                full += f;
-                full_shape = &s;
+                const double drag = s.area * x.gamma * b;
+                for (unsigned int d = 0; d < dim; ++d)
+                  {
+                    const double mean = value(reference[x.reference][d], s.phi);
+                    velocity[d] -= s.area * b * mean;
+                    force[d] -= drag * mean;
+                    for (unsigned int v = 0; v < n; ++v)
+                      lumped_mean[d][v] += drag * mean * s.phi[v];
+                  }
+                for (unsigned int v = 0; v < n; ++v)
+                  lumped_drag[x.reference][v] += drag * s.phi[v];
               }
+            if (affine)
+              sums.add(velocity, force, s.phi);
             else
-              add_known(s, f, r);
+              add_known(s, velocity, force, r);
             if constexpr (dim == 2)
               if (!problem.solid->spin.empty())
                 known_spin(k, r);
           }
-        if (full_shape)
-          add_known(*full_shape, full, r);
+        if constexpr (n == 4)
+          if (affine)
+            add_known(sums, r);
+        if (lumped)
+          for (unsigned int v = 0; v < n; ++v)
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                double sum = lumped_mean[d][v];
+                for (unsigned int i = 0; i < reference.size(); ++i)
+                  sum -= lumped_drag[i][v] * reference[i][d][v];
+                r[v * (dim + 1) + d] += sum;
+              }
       }
 
       void known_spin(const unsigned int k, LocalVector &r) const
@@ -258,7 +289,8 @@ namespace alluvium::fluid
         const PieceShape<dim>    &s     = problem.solid->shape[k];
         const PieceExchange<dim> &x     = problem.solid->exchange[k];
         const PieceSpin          &spin  = problem.solid->spin[k];
-        const auto                arms  = spin_arms(s, spin);
+        const auto                grad  = piece_gradients<n>(*cell, s.phi);
+        const auto                arms  = spin_arms(grad, spin);
         const double              gamma = s.area * spin.gamma, b = x.gamma * x.compliance;
         const Vector             *reference = b == 0. ? nullptr : problem.reference[x.reference];
         // the known part of the solid's velocity gradient
@@ -267,13 +299,13 @@ namespace alluvium::fluid
           for (unsigned int v = 0; v < n; ++v)
             for (unsigned int c = 0; c < 2; ++c)
               for (unsigned int d = 0; d < 2; ++d)
-                known[c][d] -= b * reference->local_element(cell->velocity[v][c]) * s.grad[v][d];
+                known[c][d] -= b * reference->local_element(cell->velocity[v][c]) * grad[v][d];
         for (unsigned int i = 0; i < n; ++i)
           {
             for (unsigned int c = 0; c < 2; ++c)
               r[i * (dim + 1) + c] += gamma * (arms[i][0] * known[c][0] + arms[i][1] * known[c][1]);
             // a disc that turns displaces nothing: exactly, if the centroids' velocities are left out
-            r[i * (dim + 1) + dim] -= s.area * x.omega * (s.grad[i][1] * spin.arm[0] - s.grad[i][0] * spin.arm[1]);
+            r[i * (dim + 1) + dim] -= s.area * x.omega * (grad[i][1] * spin.arm[0] - grad[i][0] * spin.arm[1]);
           }
         if (!problem.discretisation.lumped_drag || !reference)
           return;
@@ -327,12 +359,13 @@ namespace alluvium::fluid
 
     private:
       /** The second moments of a piece times the gradient of each shape function. */
-      std::array<std::array<double, dim>, n> spin_arms(const PieceShape<dim> &s, const PieceSpin &spin) const
+      template <typename Gradients>
+      std::array<std::array<double, dim>, n> spin_arms(const Gradients &grad, const PieceSpin &spin) const
       {
         std::array<std::array<double, dim>, n> arms;
         for (unsigned int v = 0; v < n; ++v)
-          arms[v] = {{spin.moments[0] * s.grad[v][0] + spin.moments[1] * s.grad[v][1],
-                      spin.moments[1] * s.grad[v][0] + spin.moments[2] * s.grad[v][1]}};
+          arms[v] = {{spin.moments[0] * grad[v][0] + spin.moments[1] * grad[v][1],
+                      spin.moments[1] * grad[v][0] + spin.moments[2] * grad[v][1]}};
         return arms;
       }
 
@@ -364,40 +397,49 @@ namespace alluvium::fluid
       struct PieceFactors
       {
         double drag, lift, flux_u, flux_p;
+      };
 
-        void operator+=(const PieceFactors &other)
+      /** The same, summed over the pieces of a parallelogram. */
+      struct PieceMoments
+      {
+        BilinearMoments drag, lift, flux_u, flux_p;
+
+        void add(const PieceFactors &f, const PieceShape<dim> &s)
         {
-          drag += other.drag;
-          lift += other.lift;
-          flux_u += other.flux_u;
-          flux_p += other.flux_p;
+          drag.add(f.drag, s.phi);
+          lift.add(f.lift, s.phi);
+          flux_u.add(f.flux_u, s.phi);
+          flux_p.add(f.flux_p, s.phi);
         }
       };
 
-      /** And among the known terms; those with the reference velocity by reference field. */
-      struct KnownFactors
+      /** Known velocities [m^3/s] times b = (1, xi, eta) and forces [N/m] times (1, xi, eta, mean of xi eta). */
+      struct KnownSums
       {
-        std::array<double, dim> a, e;
-        std::array<double, 3>   flux, drag;
+        std::array<std::array<double, 3>, dim> velocity;
+        std::array<std::array<double, 4>, dim> force;
 
-        void operator+=(const KnownFactors &other)
+        template <typename Means>
+        void add(const std::array<double, dim> &v, const std::array<double, dim> &f, const Means &phi)
         {
+          const double xi = phi[1] + phi[3], eta = phi[2] + phi[3];
           for (unsigned int d = 0; d < dim; ++d)
             {
-              a[d] += other.a[d];
-              e[d] += other.e[d];
-            }
-          for (unsigned int k = 0; k < flux.size(); ++k)
-            {
-              flux[k] += other.flux[k];
-              drag[k] += other.drag[k];
+              velocity[d][0] += v[d];
+              velocity[d][1] += v[d] * xi;
+              velocity[d][2] += v[d] * eta;
+              force[d][0] += f[d];
+              force[d][1] += f[d] * xi;
+              force[d][2] += f[d] * eta;
+              force[d][3] += f[d] * phi[3];
             }
         }
       };
 
       void add_shape(const PieceShape<dim> &s, const PieceFactors &f, LocalMatrix &L) const
       {
-        const std::array<double, n> weight = piece_weight(s);
+        const auto                  grad   = piece_gradients<n>(*cell, s.phi);
+        const std::array<double, n> weight = piece_weight(s, grad);
         const bool                  lumped = problem.discretisation.lumped_drag;
         for (unsigned int i = 0; i < n; ++i)
           {
@@ -410,43 +452,86 @@ namespace alluvium::fluid
                 double grad_grad = 0.;
                 for (unsigned int c = 0; c < dim; ++c)
                   {
-                    grad_grad += s.grad[i][c] * s.grad[j][c];
+                    grad_grad += grad[i][c] * grad[j][c];
                     L[i * (dim + 1) + c][j * (dim + 1) + c] += drag_test * s.phi[j];
-                    L[i * (dim + 1) + c][j * (dim + 1) + dim] -= f.lift * weight[i] * s.grad[j][c];
-                    L[i * (dim + 1) + dim][j * (dim + 1) + c] += f.flux_u * s.grad[i][c] * s.phi[j];
+                    L[i * (dim + 1) + c][j * (dim + 1) + dim] -= f.lift * weight[i] * grad[j][c];
+                    L[i * (dim + 1) + dim][j * (dim + 1) + c] += f.flux_u * grad[i][c] * s.phi[j];
                   }
                 L[i * (dim + 1) + dim][j * (dim + 1) + dim] += f.flux_p * grad_grad;
               }
           }
       }
 
-      void add_known(const PieceShape<dim> &s, const KnownFactors &f, LocalVector &r) const
+      void add_moments(PieceMoments &moments, LocalMatrix &L) const
       {
-        const std::array<double, n> weight = piece_weight(s);
+        for (auto *m : {&moments.drag, &moments.lift, &moments.flux_u, &moments.flux_p})
+          m->close();
+        const auto grad = gradient_factors(*cell);
+        const auto drag = moments.drag.shapes(), lift = moments.lift.shapes(), flux_u = moments.flux_u.shapes();
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            // the streamline-upwind part of test function i, and pressure's weight with it
+            BilinearMoments::Linear upwind{};
+            for (unsigned int d = 0; d < dim; ++d)
+              for (unsigned int k = 0; k < 3; ++k)
+                upwind[k] += supg * u_mean[d] * grad[i][d][k];
+            const auto                               upwind_lift = moments.lift.linear(upwind);
+            std::array<BilinearMoments::Linear, dim> flux_p;
+            BilinearMoments::Linear                  weight;
+            for (unsigned int d = 0; d < dim; ++d)
+              flux_p[d] = moments.flux_p.linear(grad[i][d]);
+            for (unsigned int k = 0; k < 3; ++k)
+              weight[k] = lift[i][k] + upwind_lift[k];
+            for (unsigned int c = 0; c < dim; ++c)
+              L[i * (dim + 1) + c][i * (dim + 1) + c] += drag[i][0];
+            for (unsigned int j = 0; j < n; ++j)
+              {
+                const double drag_test = BilinearMoments::dot(upwind, drag[j]);
+                double       grad_grad = 0.;
+                for (unsigned int c = 0; c < dim; ++c)
+                  {
+                    L[i * (dim + 1) + c][j * (dim + 1) + c] += drag_test;
+                    L[i * (dim + 1) + c][j * (dim + 1) + dim] -= BilinearMoments::dot(weight, grad[j][c]);
+                    L[i * (dim + 1) + dim][j * (dim + 1) + c] += BilinearMoments::dot(flux_u[j], grad[i][c]);
+                    grad_grad += BilinearMoments::dot(flux_p[c], grad[j][c]);
+                  }
+                L[i * (dim + 1) + dim][j * (dim + 1) + dim] += grad_grad;
+              }
+          }
+      }
+
+      void add_known(const PieceShape<dim>         &s,
+                     const std::array<double, dim> &velocity,
+                     const std::array<double, dim> &force,
+                     LocalVector                   &r) const
+      {
+        const auto                  grad   = piece_gradients<n>(*cell, s.phi);
+        const std::array<double, n> weight = piece_weight(s, grad);
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              r[i * (dim + 1) + d] += force[d] * weight[i];
+              r[i * (dim + 1) + dim] += grad[i][d] * (velocity[d] + pspg * force[d]);
+            }
+      }
+
+      void add_known(const KnownSums &sums, LocalVector &r) const
+      {
+        const auto grad = gradient_factors(*cell);
         for (unsigned int d = 0; d < dim; ++d)
           {
-            double                velocity = f.a[d], force = f.e[d];
-            std::array<double, n> lumped{};
-            for (unsigned int k = 0; k < f.flux.size(); ++k)
-              if (f.flux[k] != 0.)
-                {
-                  std::array<double, n> reference;
-                  double                mean = 0.;
-                  for (unsigned int v = 0; v < n; ++v)
-                    {
-                      reference[v] = problem.reference[k]->local_element(cell->velocity[v][d]);
-                      mean += reference[v] * s.phi[v];
-                    }
-                  velocity -= f.flux[k] * mean;
-                  force -= f.drag[k] * mean;
-                  if (problem.discretisation.lumped_drag)
-                    for (unsigned int i = 0; i < n; ++i)
-                      lumped[i] += f.drag[k] * s.phi[i] * (mean - reference[i]);
-                }
+            const auto                   &f     = sums.force[d];
+            const std::array<double, 4>   shape = {{f[0] - f[1] - f[2] + f[3], f[1] - f[3], f[2] - f[3], f[3]}};
+            const BilinearMoments::Linear force = {{f[0], f[1], f[2]}};
+            BilinearMoments::Linear       flux;
+            for (unsigned int k = 0; k < 3; ++k)
+              flux[k] = sums.velocity[d][k] + pspg * force[k];
             for (unsigned int i = 0; i < n; ++i)
               {
-                r[i * (dim + 1) + d] += force * weight[i] + lumped[i];
-                r[i * (dim + 1) + dim] += s.grad[i][d] * (velocity + pspg * force);
+                r[i * (dim + 1) + d] += shape[i];
+                for (unsigned int c = 0; c < dim; ++c)
+                  r[i * (dim + 1) + d] += supg * u_mean[c] * BilinearMoments::dot(force, grad[i][c]);
+                r[i * (dim + 1) + dim] += BilinearMoments::dot(flux, grad[i][d]);
               }
           }
       }
@@ -476,14 +561,15 @@ namespace alluvium::fluid
         return result;
       }
 
-      std::array<double, n> piece_weight(const PieceShape<dim> &s) const
+      template <typename Gradients>
+      std::array<double, n> piece_weight(const PieceShape<dim> &s, const Gradients &grad) const
       {
         std::array<double, n> weight;
         for (unsigned int v = 0; v < n; ++v)
           {
             double streamline = 0.;
             for (unsigned int d = 0; d < dim; ++d)
-              streamline += u_mean[d] * s.grad[v][d];
+              streamline += u_mean[d] * grad[v][d];
             weight[v] = s.phi[v] + supg * streamline;
           }
         return weight;

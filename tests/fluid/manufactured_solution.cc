@@ -147,7 +147,7 @@ namespace
     FEValues<dim> values(space.mapping(),
                          space.nodal_dof_handler().get_fe(),
                          quadrature,
-                         update_values | update_gradients | update_JxW_values | update_quadrature_points);
+                         update_values | update_JxW_values | update_quadrature_points);
     solid.begin.push_back(0);
     for (const auto &cell : space.nodal_dof_handler().active_cell_iterators())
       {
@@ -157,11 +157,7 @@ namespace
             PieceShape<dim> s{};
             s.area = (1. - eps(values.quadrature_point(q))) * values.JxW(q);
             for (unsigned int v = 0; v < space.n_nodes_per_cell(); ++v)
-              {
-                s.phi[v] = values.shape_value(v, q);
-                for (unsigned int d = 0; d < dim; ++d)
-                  s.grad[v][d] = values.shape_grad(v, q)[d];
-              }
+              s.phi[v] = values.shape_value(v, q);
             PieceExchange<dim> x;
             x.gamma = gamma;
             for (unsigned int d = 0; d < dim; ++d)

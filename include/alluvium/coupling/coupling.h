@@ -147,17 +147,15 @@ namespace alluvium::coupling
     void find_drag(CouplingState &state);
     void find_acceleration(CouplingState &state) const;
     void look_at(const fluid::BlockVector &field, CouplingState &state) const;
-    void
-    find_torques(const CouplingState &state, const std::vector<PieceField> &lag_of_sweep, grains::GrainLoads &loads);
-    void collect_forces(const CouplingState &state, const std::vector<PieceField> &lag_of_sweep);
+    void find_torques(const CouplingState &state, grains::GrainLoads &loads);
+    void collect_forces(const CouplingState &state);
 
     /** Velocity of a piece as the fluid saw it in the latest sweep [m/s], and the force density on it [N/m^3]. */
     struct PieceForce
     {
       std::array<double, 2> velocity, force;
     };
-    PieceForce
-    piece_force(const CouplingState &state, const std::size_t k, const std::vector<PieceField> &lag_of_sweep) const;
+    PieceForce piece_force(const CouplingState &state, const std::size_t k) const;
 
     const fluid::FluidSpace<dim>    *space;
     fluid::VansSolver<dim>          *solver;

@@ -12,8 +12,17 @@ namespace alluvium::coupling
   };
 
   /** Mean velocity and pressure gradient of @p field over each piece of @p map. */
-  std::vector<PieceField>
-  evaluate(const OverlapMap &map, const fluid::FluidSpace<2> &space, const fluid::BlockVector &field);
+  void evaluate(const OverlapMap           &map,
+                const fluid::FluidSpace<2> &space,
+                const fluid::BlockVector   &field,
+                std::vector<PieceField>    &result);
+  inline std::vector<PieceField>
+  evaluate(const OverlapMap &map, const fluid::FluidSpace<2> &space, const fluid::BlockVector &field)
+  {
+    std::vector<PieceField> result;
+    evaluate(map, space, field, result);
+    return result;
+  }
 
   /** Gradient of the fluid velocity at a piece's centroid, [component][direction] [1/s]. */
   using VelocityGradient = std::array<std::array<double, 2>, 2>;
@@ -47,7 +56,7 @@ namespace alluvium::coupling
     std::array<double, 2>            gravity       = {{0., 0.}}; // [m/s^2]
     double                           fluid_density = 0.;         // [kg/m^3]
     std::vector<double>              gamma;                      // drag per piece [N s/m^4]
-    std::vector<PieceField>          old, latest;                // t^n on the new pieces; after the latest sweep
+    std::vector<PieceField>          old, latest, before_latest; // t^n on the new pieces; after the latest two sweeps
 
     const GrainMotion *answer = nullptr; // to the latest sweep, where the step is repeated with it
 
@@ -57,6 +66,15 @@ namespace alluvium::coupling
     // - u^n/dt [m/s^2]; zero and empty where it is off.
     double                             added_density = 0.;
     std::vector<std::array<double, 2>> acceleration;
+
+    /** Let the per-piece arrays live where @p other's did: fresh memory costs more than filling it. */
+    void take_memory_of(CouplingState &other)
+    {
+      gamma.swap(other.gamma);
+      old.swap(other.old);
+      latest.swap(other.latest);
+      before_latest.swap(other.before_latest);
+    }
 
     /** Factor of u - v on piece @p k: drag, and what added mass makes of their difference's rate [N s/m^4]. */
     double coefficient(const std::size_t k) const { return gamma[k] + added_density / dt; }

@@ -32,9 +32,10 @@ namespace alluvium::fluid
     std::array<unsigned int, n>                           node;     // in scalar nodal fields
     std::array<dealii::Point<dim>, n>                     vertex;
     std::array<dealii::types::global_dof_index, n *(dim + 1)>
-         dofs;        // global; [node * (dim+1) + component], component dim: p
-    bool constrained; // does any dof carry a constraint?
-    bool parallelogram;
+         dofs;          // global; [node * (dim+1) + component], component dim: p
+    bool constrained;   // does any dof carry a constraint?
+    bool parallelogram; // or a triangle: the map from the reference cell is affine, its inverse's gradients are
+    std::array<std::array<double, dim>, dim> to_reference; // [reference coordinate][direction] [1/m]
   };
 
   /**

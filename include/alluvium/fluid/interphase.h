@@ -10,14 +10,16 @@ namespace alluvium::fluid
   template <int dim>
   constexpr unsigned int max_nodes = 1 << dim;
 
-  /** Where a piece of the solid sits in its cell: all that integrals of shape functions over it need. */
+  /**
+   * Where a piece of the solid sits in its cell: all that integrals of shape functions over it need. Gradients at its
+   * centroid follow from phi and the cell, see piece_gradients(): pieces are many, and what they cost is reading them.
+   */
   template <int dim>
   struct PieceShape
   {
-    double                                              area; // [m^2], weights included
-    std::array<double, max_nodes<dim>>                  phi;  // mean of each nodal shape function over the piece
-    std::array<std::array<double, dim>, max_nodes<dim>> grad; // its gradient at the piece's centroid [1/m]
-    bool full = false; // the piece is the whole cell: all full pieces of a cell have the same phi and grad
+    double                             area;         // [m^2], weights included
+    std::array<double, max_nodes<dim>> phi;          // mean of each nodal shape function over the piece
+    bool                               full = false; // the piece is the whole cell: all of a cell's have the same phi
   };
 
   /**
