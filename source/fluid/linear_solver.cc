@@ -8,6 +8,7 @@
 
 #include <EpetraExt_MatrixMatrix.h>
 #include <Epetra_CrsMatrix.h>
+#include <Epetra_Vector.h>
 
 #include <numeric>
 #include <sstream>
@@ -24,6 +25,8 @@ namespace alluvium::fluid
     constexpr double diffusive_ratio = 20.;
     // fresh, the cheap preconditioner needs about ten iterations or fails
     constexpr unsigned int cheap_iterations = 60;
+    // and below which the row sums are as good an inverse for the last correction of the velocity
+    constexpr double lumping_ratio = 4.;
 
     std::string in_digits(const double x)
     {
@@ -52,6 +55,7 @@ namespace alluvium::fluid
       const TrilinosWrappers::PreconditionBase  &first_velocity, &last_velocity;
       const TrilinosWrappers::PreconditionAMG   &pressure;
       const std::vector<double>                 &mobility;
+      const std::vector<double>                 &row_sums;     // for the last velocity; empty: last_velocity it is
       const Vector                              *inverse_mass; // where convection is strong
       double                                     scale;
       mutable BlockVector                        r, s;
@@ -67,8 +71,14 @@ namespace alluvium::fluid
         for (unsigned int i = 0; i < mobility.size(); ++i)
           dst.block(1).local_element(i) += mobility[i] * r.block(1).local_element(i);
         matrix.block(0, 1).vmult(r.block(0), dst.block(1));
-        last_velocity.vmult(s.block(0), r.block(0));
-        dst.block(0) -= s.block(0);
+        if (row_sums.empty())
+          {
+            last_velocity.vmult(s.block(0), r.block(0));
+            dst.block(0) -= s.block(0);
+          }
+        else // with which p is the solution of the continuity equation
+          for (unsigned int i = 0; i < row_sums.size(); ++i)
+            dst.block(0).local_element(i) -= r.block(0).local_element(i) / row_sums[i];
       }
 
       /** p becomes P^-1 (D + B^T M^-1 A M^-1 B) p. */
@@ -82,6 +92,33 @@ namespace alluvium::fluid
         matrix.block(1, 1).vmult(s.block(1), p);
         s.block(1) += r.block(1);
         pressure.vmult(p, s.block(1));
+      }
+    };
+
+    /** Inertia and drag of the owned velocities, and how far diffusion outweighs them. */
+    struct RowSums
+    {
+      std::vector<double> sum, absolute;
+      double              largest_ratio = 0.; // of a diagonal entry over its row sum, on any rank
+
+      RowSums(const TrilinosWrappers::SparseMatrix &matrix, const LinearSolverScales &scales)
+      {
+        const Epetra_CrsMatrix &rows = matrix.trilinos_matrix();
+        Epetra_Vector           diagonal(rows.RowMap());
+        rows.ExtractDiagonalCopy(diagonal);
+        const auto add_size = [](const double sum, const double x) { return sum + std::abs(x); };
+        for (int i = 0; i < rows.NumMyRows(); ++i)
+          {
+            // convection can turn the sign of those next to walls, whose columns are missing
+            const double volume = scales.volumes.block(0).local_element(i);
+            int          n      = 0;
+            double      *value  = nullptr;
+            rows.ExtractMyRowView(i, n, value);
+            sum.push_back(std::max(std::accumulate(value, value + n, 0.), 0.1 * scales.inertia * volume));
+            absolute.push_back(std::accumulate(value, value + n, 0., add_size));
+            largest_ratio = std::max(largest_ratio, diagonal[i] / sum[i]);
+          }
+        largest_ratio = Utilities::MPI::max(largest_ratio, matrix.get_mpi_communicator());
       }
     };
   } // namespace
@@ -126,26 +163,14 @@ namespace alluvium::fluid
     pressure.clear(); // while the matrix that its smoothers look at is still there
     velocity.initialize(A, TrilinosWrappers::PreconditionILU::AdditionalData(0));
 
-    // row sums; convection can turn the sign of those next to walls, whose columns are missing
-    const auto                    absolute = [](const double sum, const double x) { return sum + std::abs(x); };
+    const RowSums                 row_sums(A, scales);
+    const auto                   &mass = convective ? row_sums.absolute : row_sums.sum;
     TrilinosWrappers::MPI::Vector inverse(A.locally_owned_range_indices(), A.get_mpi_communicator());
-    double                        largest_ratio = 0.;
     inverse_mass.reinit(scales.volumes.block(0), true);
     for (int i = 0; i < rows.NumMyRows(); ++i)
-      {
-        const types::global_dof_index row    = rows.GRID64(i);
-        const double                  volume = scales.volumes.block(0).local_element(i);
-        int                           n      = 0;
-        double                       *value  = nullptr;
-        rows.ExtractMyRowView(i, n, value);
-        const double sum              = std::max(std::accumulate(value, value + n, 0.), 0.1 * scales.inertia * volume);
-        const double mass             = convective ? std::accumulate(value, value + n, 0., absolute) : sum;
-        inverse(row)                  = 1. / mass;
-        inverse_mass.local_element(i) = 1. / mass;
-        largest_ratio                 = std::max(largest_ratio, A.diag_element(row) / sum);
-      }
+      inverse(rows.GRID64(i)) = inverse_mass.local_element(i) = 1. / mass[i];
     inverse.compress(VectorOperation::insert);
-    diffusive = !convective && Utilities::MPI::max(largest_ratio, A.get_mpi_communicator()) > diffusive_ratio;
+    diffusive = !convective && row_sums.largest_ratio > diffusive_ratio;
     if (diffusive)
       {
         TrilinosWrappers::PreconditionAMG::AdditionalData data;
@@ -221,8 +246,11 @@ namespace alluvium::fluid
         SolverGMRES<BlockVector>                  gmres(control, data);
         const TrilinosWrappers::PreconditionBase &first =
           diffusive ? static_cast<const TrilinosWrappers::PreconditionBase &>(coarse_velocity) : velocity;
+        std::vector<double> lumped;
+        if (RowSums of_now(matrix.block(0, 0), scales); !convective && of_now.largest_ratio < lumping_ratio)
+          lumped = std::move(of_now.sum);
         const BlockFactors preconditioner{
-          matrix, first, velocity, pressure, mobility, convective ? &inverse_mass : nullptr, ratio, rhs, rhs};
+          matrix, first, velocity, pressure, mobility, lumped, convective ? &inverse_mass : nullptr, ratio, rhs, rhs};
         x     = 0.;
         retry = false;
         try
