@@ -8,8 +8,8 @@ namespace alluvium::mesh
   namespace
   {
     constexpr double cell_cost = 1000.;
-    // a piece costs about a fifteenth of an empty cell's assembly and solve: tests/benchmarks/fluid_step.cc
-    constexpr double piece_cost  = 70.;
+    // a piece costs about a twentieth of an empty cell's assembly and solve: tests/benchmarks/fluid_step.cc
+    constexpr double piece_cost  = 50.;
     constexpr double max_buckets = 1e6;
   } // namespace
 

@@ -24,7 +24,7 @@ namespace
     EXPECT_GE(n, 49.);
     EXPECT_LE(n, 81.);
     EXPECT_EQ(weights.weight({{{10., 10.}}, {{11., 11.}}}), 1000u);
-    EXPECT_GT(weights.weight({{{1., 1.}}, {{1.4, 1.4}}}), 4000u);
+    EXPECT_GT(weights.weight({{{1., 1.}}, {{1.4, 1.4}}}), 3000u);
   }
 
   TEST(CellWeights, WithoutGrainsAllCellsCostTheSame)
