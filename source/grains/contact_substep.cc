@@ -147,14 +147,12 @@ namespace alluvium::grains
   }
 
 
-  ContactTolerance ContactSubstep::tolerance() const
+  ContactTolerance ContactSubstep::tolerance(const bool on_the_move) const
   {
-    // A bed at rest, or a cold one, is not on the move, however many sweeps it takes.
-    const bool on_the_move =
-      margins.speeds.mean > settings.moving_speed * problem.impulse_scale / step.scales.mean_mass;
     // A residual makes a bed creep, at a speed in proportion to it and to the sub-step.
     const double g     = step.scales.g;
-    const double wider = g > 0. ? std::clamp(0.2 * std::sqrt(step.scales.d_min / g) / margins.h, 1., 10.) : 1.;
+    const double wider = (g > 0. ? std::clamp(0.2 * std::sqrt(step.scales.d_min / g) / margins.h, 1., 10.) : 1.) *
+                         (on_the_move ? settings.haste : 1.);
     return {wider * settings.residual_tolerance,
             wider * settings.violation_tolerance,
             settings.loose,
@@ -167,7 +165,11 @@ namespace alluvium::grains
   /** Solve with the contacts that are close or closing; if the solution makes others close, add them and solve on. */
   ContactSubstep::Outcome ContactSubstep::solve(ContactReport &report)
   {
-    ContactTolerance tolerance = this->tolerance();
+    // A bed at rest, or a cold one, is not on the move, however many sweeps it takes.
+    const bool on_the_move =
+      margins.speeds.mean > settings.moving_speed * problem.impulse_scale / step.scales.mean_mass;
+    report.hasty               = report.hasty || (on_the_move && settings.haste > 1.);
+    ContactTolerance tolerance = this->tolerance(on_the_move);
     Outcome          outcome;
     ContactSolution &solution = outcome.solution;
     for (bool keep = false;; keep = true)

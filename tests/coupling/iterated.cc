@@ -137,6 +137,33 @@ namespace
       }
   }
 
+  /** Momentum that the fluid did not receive while a bed is lifted from rest, over all that was exchanged. */
+  double momentum_not_received(const std::string &scheme)
+  {
+    Settings s;
+    s.scheme = scheme;
+    s.dt     = tau;
+    FreeBed bed(s, {});
+    bed.set_head(1.2);
+    std::array<double, 2> missing  = {{0., 0.}};
+    double                received = 0.;
+    for (unsigned int k = 0; k < 20; ++k)
+      {
+        bed.step();
+        const auto &r = bed.channel.coupling.report();
+        for (unsigned int d = 0; d < 2; ++d)
+          missing[d] += r.unseen_force[d];
+        received += r.force_scale;
+      }
+    return std::hypot(missing[0], missing[1]) / received;
+  }
+
+  TEST(Iterated, LiftedBedsMomentumArrives)
+  {
+    EXPECT_LT(momentum_not_received("iterated"), 1e-3);
+    EXPECT_GT(momentum_not_received("semi-implicit per grain"), 1e-2);
+  }
+
   /** Largest distance between the velocity of a piece, as the fluid saw it, and that of its grain [m/s]. */
   double largest_deviation(const FreeBed &bed, const grains::GrainArrays &before)
   {

@@ -11,7 +11,7 @@ namespace alluvium::coupling
    * start again from where they were, until both agree: in a jammed bed the contact forces of the last step are not
    * those of this one. The next guess is the combination of the answers so far that would make the disagreement
    * smallest (Anderson mixing). The end is also where that does not get smaller any more: it cannot where contacts are
-   * solved loosely, as between fast grains.
+   * solved loosely, as between fast grains. There the contacts of what is taken back are solved more loosely still.
    */
   class ContactIteration
   {
@@ -36,6 +36,21 @@ namespace alluvium::coupling
     bool agrees() const { return agree; }
 
   private:
+    /** What contacts make of the grains, and the forces that the fluid has not seen in it. */
+    struct Answer
+    {
+      grains::GrainArrays   grains;
+      grains::ContactReport report;
+      GrainMotion           motion;
+      std::vector<double>   unseen; // Coupling::unseen_force()
+    };
+    Answer move(const grains::GrainArrays   &grains,
+                const grains::GrainLoads    &loads,
+                double                       dt,
+                const std::array<double, 2> &gravity,
+                double                       haste);
+    bool   agrees(const Answer &answer, double tolerance) const;
+
     Coupling               &coupling;
     grains::ContactStepper &contacts;
     Timers                 &timers;

@@ -11,6 +11,7 @@ namespace alluvium::grains
   {
     std::map<std::string, std::array<double, 2>> wall_force; // mean force on each wall, by name [N/m]
 
+    bool               hasty         = false; // grains moved, and haste made the tolerance larger; see ContactSettings
     bool               at_rest       = false; // nothing was solved: loads and grains have not changed; see Rest
     unsigned int       n_quiet       = 0;     // steps without change up to now, this one included
     unsigned int       n_contacts    = 0;     // that carried an impulse in the last sub-step

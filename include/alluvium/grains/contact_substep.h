@@ -75,7 +75,7 @@ namespace alluvium::grains
     void             set_margins(double h);
     void             search_if_due();
     void             set_problem(bool keep);
-    ContactTolerance tolerance() const;
+    ContactTolerance tolerance(bool on_the_move) const;
     Outcome          solve(ContactReport &report);
     bool             misses_contacts(const std::array<double, 2> &speeds);
     void             find_weights();
