@@ -4,6 +4,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace alluvium::coupling
@@ -222,7 +223,8 @@ namespace alluvium::coupling
   bool Coupling::rebalance(const fluid::BoundaryConditions<dim> &boundary_conditions,
                            const grains::GrainArrays            &grains,
                            const double                          dt,
-                           const fluid::BlockVector             &before)
+                           const fluid::BlockVector             &before,
+                           const double                          share)
   {
     const std::vector<std::uint8_t> touched(grains.n(), 0);
     still = false;
@@ -235,12 +237,20 @@ namespace alluvium::coupling
       fastest_grain = std::max(fastest_grain, std::hypot(grains.vx[g], grains.vy[g]));
     const double speed   = solver->old().block(0).linfty_norm();
     const bool   is_slow = std::max(change.block(0).linfty_norm(), fastest_grain) <= 1e-2 * speed;
-    // slow: a step so long that only the acceleration that is given is left; else the last step once more
-    const double factor = is_slow ? 1e3 : 1.;
+    // what interpolation leaves in a few cells is less than what finding the flow anew does to accelerating grains
+    constexpr double small_share = 0.2;
+    if (!is_slow && share < small_share)
+      return false;
 
     update_void_fraction(grains);
-    CouplingState state(grains, touched, map, factor * dt);
+    CouplingState state(grains, touched, map, dt);
     find_state(state);
+    // slow: a step so long that only the acceleration that is given is left; else so long that the slip finds its own
+    constexpr double longest = 1e3, n_relaxations = 3.;
+    const double     factor = is_slow ? longest : std::clamp(n_relaxations * relaxation_time(state) / dt, 1., longest);
+    state.dt                = factor * dt;
+    if (added_mass > 0.)
+      find_acceleration(state);
     fluid::BlockVector inertia = solver->old();
     inertia.zero_out_ghost_values();
     inertia.sadd(1. - factor, factor, before);
@@ -261,7 +271,19 @@ namespace alluvium::coupling
         field.block(1)           = solver->old().block(1);
         solver->set_solution(field);
       }
-    return is_slow;
+    return true;
+  }
+
+
+  double Coupling::relaxation_time(const CouplingState &state) const
+  {
+    double drag = 0., mass = 0.;
+    for (std::size_t k = 0; k < state.n_pieces(); ++k)
+      drag += map.terms().shape[k].area * state.gamma[k];
+    for (const double m : state.grains.mass)
+      mass += std::isinf(m) ? 0. : m;
+    drag = Utilities::MPI::sum(drag, space->communicator());
+    return drag > 0. ? mass / drag : 0.;
   }
 
 

@@ -241,12 +241,18 @@ namespace alluvium::mesh
           }
 
         triangulation.prepare_coarsening_and_refinement();
-        unsigned long long n_flags = 0;
+        double flagged = 0., area = 0.;
         for (const auto &cell : triangulation.active_cell_iterators())
-          if (cell->is_locally_owned() && (cell->refine_flag_set() || cell->coarsen_flag_set()))
-            ++n_flags;
-        if (Utilities::MPI::sum(n_flags, communicator) == 0)
+          if (cell->is_locally_owned())
+            {
+              area += cell->measure();
+              if (cell->refine_flag_set() || cell->coarsen_flag_set())
+                flagged += cell->measure();
+            }
+        flagged = Utilities::MPI::sum(flagged, communicator);
+        if (flagged == 0.)
           break;
+        report.share = std::min(1., report.share + flagged / Utilities::MPI::sum(area, communicator));
 
         if (before)
           before();

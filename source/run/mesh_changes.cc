@@ -60,7 +60,8 @@ namespace alluvium::run
       {
         m.solver.set_solution(field);
         m.boundary_conditions.set_time(m.time);
-        m.counts["rebalanced flows"] += m.coupling.rebalance(m.boundary_conditions, m.grains, m.time_step, before);
+        m.counts["rebalanced flows"] +=
+          m.coupling.rebalance(m.boundary_conditions, m.grains, m.time_step, before, report.share);
       }
     return report.changed;
   }

@@ -74,14 +74,16 @@ namespace alluvium::coupling
      * had, (solution - @p before)/@p dt, and so the same forces on the grains, which move with their velocities. What
      * interpolation left would pass for an acceleration in the next steps. Boundary conditions are at the present time.
      * That is for a flow that hardly changes in a step, through grains that hardly move: otherwise what changes in a
-     * step would be taken for what the meshes differ in, many times over. Then the last step, from @p before, is taken
-     * once more, so that the velocity at least fulfils the continuity equation of this mesh; the pressure stays as it
-     * was carried over. Returns whether the flow was of the first kind. Collective.
+     * step would be taken for what the meshes differ in, many times over. Elsewhere the flow has only as long for it as
+     * drag takes to bring grains and fluid together, and only its velocity is kept, which fulfils the continuity
+     * equation of this mesh; the pressure stays as it was carried over. Nothing is done there if only a small @p share
+     * of the domain's area has other cells than before. Returns whether a flow was found. Collective.
      */
     bool rebalance(const fluid::BoundaryConditions<dim> &boundary_conditions,
                    const grains::GrainArrays            &grains,
-                   const double                          dt,
-                   const fluid::BlockVector             &before);
+                   double                                dt,
+                   const fluid::BlockVector             &before,
+                   double                                share);
 
     TimeScheme::Repetition repetition() const { return scheme_choice.get().repetition(); }
 
@@ -139,16 +141,18 @@ namespace alluvium::coupling
     };
 
     void find_state(CouplingState &state);
-    void find_loads(const TimeScheme &scheme, const CouplingState &state, grains::GrainLoads &loads);
-    void solve(const fluid::BoundaryConditions<dim> &boundary_conditions,
-               const TimeScheme                     &scheme,
-               fluid::VansProblem<dim>               problem,
-               CouplingState                        &state);
-    void find_drag(CouplingState &state);
-    void find_acceleration(CouplingState &state) const;
-    void look_at(const fluid::BlockVector &field, CouplingState &state) const;
-    void find_torques(const CouplingState &state, grains::GrainLoads &loads);
-    void collect_forces(const CouplingState &state);
+    /** Mass of all grains over their drag: how fast it brings grains and fluid together [s]. */
+    double relaxation_time(const CouplingState &state) const;
+    void   find_loads(const TimeScheme &scheme, const CouplingState &state, grains::GrainLoads &loads);
+    void   solve(const fluid::BoundaryConditions<dim> &boundary_conditions,
+                 const TimeScheme                     &scheme,
+                 fluid::VansProblem<dim>               problem,
+                 CouplingState                        &state);
+    void   find_drag(CouplingState &state);
+    void   find_acceleration(CouplingState &state) const;
+    void   look_at(const fluid::BlockVector &field, CouplingState &state) const;
+    void   find_torques(const CouplingState &state, grains::GrainLoads &loads);
+    void   collect_forces(const CouplingState &state);
 
     /** Velocity of a piece as the fluid saw it in the latest sweep [m/s], and the force density on it [N/m^3]. */
     struct PieceForce

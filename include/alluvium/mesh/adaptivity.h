@@ -22,6 +22,7 @@ namespace alluvium::mesh
     bool               limited   = false; // cells stayed too large because of `Max cells` or `Max levels`
     unsigned int       n_rounds  = 0;     // of refinement and coarsening
     unsigned long long n_cells   = 0;
+    double             share     = 0.;              // of the domain's area, where cells were refined or joined
     double             smallest = 0., largest = 0.; // cell sizes [m]
   };
 
