@@ -39,6 +39,13 @@ namespace alluvium::coupling
       "only "
       "1.5 d to 2 d give the right flux through a bed.");
     prm.add_parameter(
+      "Filter shape",
+      shape_text,
+      "How a grain is spread over the filter's disc: `even`, or `smooth`, as 1 - q^2/R^2 of the "
+      "distance q from its centre, so that nothing jumps where the edge of the disc crosses cells. With "
+      "`Filter radius = grain` always even.",
+      Patterns::Selection("even|smooth"));
+    prm.add_parameter(
       "Overlap rule",
       rule_text,
       "How shape functions are integrated over the pieces of a grain: `centroid` (the paper: at the piece's centroid, "
@@ -99,6 +106,11 @@ namespace alluvium::coupling
                      filter_text + "'.");
         settings.filter_radius = x;
       }
+    settings.shape = shape_text == "smooth" ? OverlapSettings::Shape::smooth : OverlapSettings::Shape::even;
+    check_user(settings.shape_of_discs() == OverlapSettings::Shape::even || settings.filter_radius >= 1.,
+               "Coupling/Filter radius: a smooth filter needs at least `1 d`, since in the middle it weighs twice its "
+               "mean; got '" +
+                 filter_text + "'.");
     check_user(
       added_mass == 0. || scheme_choice.get().predicts_acceleration(),
       "Coupling/Added mass coefficient: added mass needs a time scheme that predicts how the grains accelerate, "

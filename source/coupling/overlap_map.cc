@@ -1,5 +1,6 @@
 #include <alluvium/coupling/overlap_map.h>
 #include <alluvium/geometry/grid_cutter.h>
+#include <alluvium/geometry/smooth_disc_overlap.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/mpi.h>
@@ -237,7 +238,8 @@ namespace alluvium::coupling
       radius[g] = settings.filter_radius > 0. ? 2. * settings.filter_radius * grains.radius[g] : grains.fluid_radius[g];
 
     std::vector<std::uint8_t> moved(n, 1);
-    if (position.x.size() == n && cut_with.rule == settings.rule && cut_with.keep_arms == settings.keep_arms &&
+    if (position.x.size() == n && cut_with.rule == settings.rule &&
+        cut_with.shape_of_discs() == settings.shape_of_discs() && cut_with.keep_arms == settings.keep_arms &&
         position.radius == radius && position.fluid_radius == grains.fluid_radius)
       for (std::size_t g = 0; g < n; ++g)
         moved[g] = std::max(std::abs(grains.x[g] - position.x[g]), std::abs(grains.y[g] - position.y[g])) >
@@ -267,7 +269,8 @@ namespace alluvium::coupling
         }
     const Images now(position.x, position.y, max_radius, box, mirrors);
     const Images then = all ? Images() : Images(before.x, before.y, max_radius, box, mirrors);
-    if (!grid.empty() && settings.rule != OverlapSettings::Rule::centre && !settings.keep_arms)
+    if (!grid.empty() && settings.rule != OverlapSettings::Rule::centre && !settings.keep_arms &&
+        settings.shape_of_discs() == OverlapSettings::Shape::even)
       cut_on_grid(now, then, moved, settings);
     else
       cut_cells(now, then, moved, settings);
@@ -321,6 +324,8 @@ namespace alluvium::coupling
     raw_area.clear();
     arm_of_piece.clear();
     raw_area.reserve(old_area.size());
+    const auto overlap_of_disc =
+      settings.shape_of_discs() == OverlapSettings::Shape::smooth ? geometry::smooth_overlap : geometry::overlap;
     std::vector<unsigned int> candidates;
     for (unsigned int c = 0; c < polygons.size(); ++c)
       {
@@ -336,7 +341,7 @@ namespace alluvium::coupling
                 const geometry::Point2 centre = {{now.x[k], now.y[k]}};
                 geometry::Overlap      o      = settings.rule == OverlapSettings::Rule::centre
                                                   ? cell_of_centre(centre, polygon)
-                                                  : geometry::overlap({centre, position.radius[g]}, polygon);
+                                                  : overlap_of_disc({centre, position.radius[g]}, polygon);
                 if (o.area > 0.)
                   {
                     for (unsigned int d = 0; d < dim; ++d)
@@ -477,7 +482,7 @@ namespace alluvium::coupling
         const double product = xi * eta + second;
         s.phi                = {{1. - xi - eta + product, xi - product, eta - product, product}};
       }
-    s.full = o.area == polygons[cell].area;
+    s.full = settings.shape_of_discs() == OverlapSettings::Shape::even && o.area == polygons[cell].area;
     pieces.shape.push_back(s);
     grain_of_piece.push_back(grain);
     raw_area.push_back(o.area);

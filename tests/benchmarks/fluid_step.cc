@@ -2,7 +2,8 @@
 // thirds of a box, driven by a head that rises by 1 % a step. Also with mpirun: times are then those of the slowest
 // rank.
 //
-//   benchmark_fluid_step [N_CELLS [H_OVER_D [DT [FILTER [N_STEPS]]]]]      (defaults: 10000, 1, 1e-3 s, 2 d, 10)
+//   benchmark_fluid_step [N_CELLS [H_OVER_D [DT [FILTER [N_STEPS [smooth]]]]]]      (defaults: 10000, 1, 1e-3 s, 2 d,
+//   10, even)
 //
 // The bed is as large as the cells allow, and all of it is cut anew in every step. The flow is let establish itself
 // first; then one step makes a new preconditioner ("fresh"), and the others keep it ("kept").
@@ -66,6 +67,7 @@ int main(int argc, char **argv)
   s.dt                       = argc > 3 ? std::stod(argv[3]) : 1e-3;
   s.filter                   = argc > 4 ? std::stod(argv[4]) : 2.;
   const unsigned int n_steps = argc > 5 ? std::stoi(argv[5]) : 10;
+  s.smooth                   = argc > 6 && std::string(argv[6]) == "smooth";
 
   const double   d = 2.2e-4, h = s.h_over_d * d;
   const double   width = h * std::round(std::sqrt(n_cells / 1.5)), height = h * std::round(1.5 * width / h);

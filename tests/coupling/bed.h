@@ -101,6 +101,7 @@ namespace bed
     double      h_over_d = 1.;
     double      dt       = 1e-3;
     double      filter   = 2.;                                                      // 0: the grain
+    bool        smooth   = false;                                                   // the filter
     bool        moments = true, lumped = true, triangles = false, periodic = false; // in x
     std::string drag = "disc", scheme = "semi-implicit per grain", regularisation = "floor";
     double      added_mass  = 0.;
@@ -198,6 +199,8 @@ namespace bed
       prm.leave_subsection();
       coupling.parse_parameters();
       coupling.settings.filter_radius = settings.filter;
+      coupling.settings.shape =
+        settings.smooth ? coupling::OverlapSettings::Shape::smooth : coupling::OverlapSettings::Shape::even;
       coupling.settings.rule =
         settings.moments ? coupling::OverlapSettings::Rule::moments : coupling::OverlapSettings::Rule::centroid;
       solver.discretisation.lumped_drag = settings.lumped;

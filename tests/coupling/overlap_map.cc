@@ -64,10 +64,13 @@ namespace
     expect_same(map, cut_at_once(channel.space, g));
 
     // other discs are other pieces
-    const coupling::OverlapSettings wider{3., coupling::OverlapSettings::Rule::moments, 1e-3};
-    const std::size_t               n = map.grain().size();
-    EXPECT_TRUE(map.cut(g, wider));
+    coupling::OverlapSettings other{3., coupling::OverlapSettings::Rule::moments, 1e-3};
+    const std::size_t         n = map.grain().size();
+    EXPECT_TRUE(map.cut(g, other));
     EXPECT_GT(map.grain().size(), n);
+    other.shape = coupling::OverlapSettings::Shape::smooth;
+    EXPECT_TRUE(map.cut(g, other));
+    EXPECT_FALSE(map.cut(g, other));
   }
 
   TEST(OverlapMap, EvenGrainsAreEvenUpToTheSides)
@@ -83,10 +86,67 @@ namespace
         bed.grains.y[k]      = (0.5 + k / 8) * bed.d;
         bed.grains.radius[k] = bed.grains.fluid_radius[k] = 0.4 * bed.d;
       }
-    Channel channel(8. * bed.d, 8. * bed.d, bed.d, {}, 0.);
-    channel.coupling.update_void_fraction(bed.grains);
-    for (const double eps : channel.coupling.void_fraction())
-      EXPECT_NEAR(eps, 1. - 0.16 * M_PI, 1e-12);
+    for (const bool smooth : {false, true})
+      {
+        Settings settings;
+        settings.smooth = smooth;
+        Channel channel(8. * bed.d, 8. * bed.d, bed.d, settings, 0.);
+        channel.coupling.update_void_fraction(bed.grains);
+        for (const double eps : channel.coupling.void_fraction())
+          EXPECT_NEAR(eps, 1. - 0.16 * M_PI, 1e-12);
+      }
+  }
+
+  // Whatever the mesh, a grain's pieces add up to it, their first moments to its centre, and the solid in the void
+  // fraction to all grains.
+  TEST(OverlapMap, SmoothGrainsLoseNothing)
+  {
+    for (const std::string mesh : {"quadrilaterals", "hanging nodes", "triangles", "periodic"})
+      for (const double h : {4., 1., 0.25})
+        {
+          Bed      bed = random_bed(1, 16., 12.);
+          Settings settings;
+          settings.smooth    = true;
+          settings.h_over_d  = h;
+          settings.graded    = mesh == "hanging nodes";
+          settings.triangles = mesh == "triangles";
+          settings.periodic  = mesh == "periodic";
+          Channel channel(bed.width, bed.height, h * bed.d, settings, 0.);
+          channel.coupling.settings.keep_arms = true;
+          channel.coupling.update_void_fraction(bed.grains);
+          const auto         &map = channel.coupling.overlap();
+          const auto         &g   = bed.grains;
+          std::vector<double> area(g.n(), 0.), x(g.n(), 0.), y(g.n(), 0.);
+          for (std::size_t k = 0; k < map.grain().size(); ++k)
+            {
+              const double a = map.terms().shape[k].area;
+              area[map.grain()[k]] += a;
+              x[map.grain()[k]] += a * map.arms()[k].arm[0];
+              y[map.grain()[k]] += a * map.arms()[k].arm[1];
+            }
+          double grains = 0., solid = 0.;
+          for (std::size_t i = 0; i < g.n(); ++i)
+            {
+              const double exact = M_PI * g.fluid_radius[i] * g.fluid_radius[i];
+              grains += exact;
+              EXPECT_NEAR(area[i] / exact, 1., 1e-13);
+              if (g.x[i] > 2. * bed.d && g.x[i] < bed.width - 2. * bed.d && g.y[i] > 2. * bed.d &&
+                  g.y[i] < bed.height - 2. * bed.d) // images aside
+                {
+                  EXPECT_NEAR(x[i] / (exact * bed.d), 0., 1e-11);
+                  EXPECT_NEAR(y[i] / (exact * bed.d), 0., 1e-11);
+                }
+            }
+          const auto &volumes = channel.space.node_volumes();
+          for (unsigned int i = 0; i < volumes.locally_owned_size(); ++i)
+            {
+              const double eps = channel.coupling.void_fraction().local_element(i);
+              solid += volumes.local_element(i) * (1. - eps);
+              EXPECT_GE(eps, 0.);
+              EXPECT_LE(eps, 1.);
+            }
+          EXPECT_NEAR(solid / grains, 1., 1e-12) << mesh << ", h/d " << h;
+        }
   }
 
   TEST(OverlapMap, KeepsThePiecesOfGrainsThatStand)

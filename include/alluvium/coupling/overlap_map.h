@@ -8,7 +8,7 @@
 
 namespace alluvium::coupling
 {
-  /** Over what disc a grain is spread, and how shape functions are integrated over its pieces. */
+  /** Over what disc a grain is spread and how, and how shape functions are integrated over its pieces. */
   struct OverlapSettings
   {
     enum class Rule
@@ -17,11 +17,21 @@ namespace alluvium::coupling
       moments,  // with second moments: exact for Q1 on parallelograms
       centre    // all of a grain evenly in the cell that has its centre, whatever the filter: jumps from cell to cell
     };
-    double filter_radius = 2.; // in contact diameters; 0: the grain's own fluid radius
+    /** How a grain is spread over the filter's disc. */
+    enum class Shape
+    {
+      even,
+      smooth // as 2 (1 - q^2/R^2) of the distance q from the centre: nothing jumps at the edge
+    };
+    double filter_radius = 2.; // in contact diameters; 0: the grain's own fluid radius, over which it is always even
     Rule   rule          = Rule::moments;
     /** A grain that has moved by less than this [contact diameters] since it was cut is not cut again. */
     double tolerance = 1e-6;
     bool   keep_arms = false; // see OverlapMap::arms()
+    Shape  shape     = Shape::even;
+
+    /** The shape that the discs have. */
+    Shape shape_of_discs() const { return filter_radius > 0. ? shape : Shape::even; }
   };
 
   /** Where a piece is in its grain, and how far it stretches. */
