@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <utility>
-#include <vector>
 
 namespace
 {
@@ -91,22 +89,21 @@ TEST(DragRegularisationValidation, RandomBedAndSquareArray)
   for (const bool random : {true, false})
     {
       const bed::Bed b = random ? bed::random_bed(1, 16., 12.) : square_array(4);
-      for (const auto &[filter, smooth] :
-           std::vector<std::pair<double, bool>>{{0., false}, {1.5, false}, {2., false}, {1.5, true}, {2., true}})
+      for (const double filter : {0., 1.5, 2.})
         for (double h = 4.; h > (random ? 0.1 : 0.06); h /= 2.)
           {
             std::string row = std::string("| ") + (random ? "random" : "square") + " | " +
                               (filter == 0.   ? "r"
                                : filter == 2. ? "2 d"
                                               : "1.5 d") +
-                              (smooth ? ", smooth" : "") + " | " + std::to_string(h).substr(0, 6) + " |";
+                              " | " + std::to_string(h).substr(0, 6) + " |";
             std::string last;
             for (const std::string name : {"none", "floor", "cap", "penalisation"})
               {
                 if (filter == 0. || name == "none")
                   try
                     {
-                      last = std::to_string(bed::fixed_bed_flux(b, creeping(h, filter, smooth, name), 1e-4).over_darcy)
+                      last = std::to_string(bed::fixed_bed_flux(b, creeping(h, filter, false, name), 1e-4).over_darcy)
                                .substr(0, 6);
                     }
                   catch (const dealii::ExceptionBase &)
@@ -119,8 +116,33 @@ TEST(DragRegularisationValidation, RandomBedAndSquareArray)
             std::fflush(stdout);
             if (!random && filter == 2.) // what is left is viscosity at the discs' edges, see doc/drag.md
               {
-                EXPECT_NEAR(std::stod(last), 1., smooth ? 0.01 : 0.06) << row;
+                EXPECT_NEAR(std::stod(last), 1., 0.06) << row;
               }
           }
     }
+}
+
+// Without an edge of the disc there is a limit as cells become small: water's gain by the looser paths.
+TEST(DragRegularisationValidation, SmoothFilter)
+{
+  std::printf("| smooth, R | bed | 4 | 2 | 1 | 0.5 | 0.25 | 0.125 | 0.0625 |\n|---|---|---|---|---|---|---|---|---|\n");
+  for (const double filter : {1.5, 2., 2.5})
+    for (const bool random : {false, true})
+      {
+        const bed::Bed b = random ? bed::random_bed(1, 16., 12.) : square_array(4);
+        std::printf("| %g d | %s |", filter, random ? "random" : "square");
+        double coarser = 0., at = 0.;
+        for (double h = 4.; h > (random ? 0.1 : 0.06); h /= 2.)
+          {
+            coarser = at;
+            at      = bed::fixed_bed_flux(b, creeping(h, filter, true, "none"), 1e-4).over_darcy;
+            std::printf(" %.4f |", at);
+            std::fflush(stdout);
+          }
+        std::printf("\n");
+        if (filter >= 2.)
+          {
+            EXPECT_NEAR(at, coarser, 2e-3) << filter << " d";
+          }
+      }
 }

@@ -130,8 +130,8 @@ namespace
               const double exact = M_PI * g.fluid_radius[i] * g.fluid_radius[i];
               grains += exact;
               EXPECT_NEAR(area[i] / exact, 1., 1e-13);
-              if (g.x[i] > 2. * bed.d && g.x[i] < bed.width - 2. * bed.d && g.y[i] > 2. * bed.d &&
-                  g.y[i] < bed.height - 2. * bed.d) // images aside
+              if (g.x[i] > 3. * bed.d && g.x[i] < bed.width - 3. * bed.d && g.y[i] > 3. * bed.d &&
+                  g.y[i] < bed.height - 3. * bed.d) // images aside
                 {
                   EXPECT_NEAR(x[i] / (exact * bed.d), 0., 1e-11);
                   EXPECT_NEAR(y[i] / (exact * bed.d), 0., 1e-11);

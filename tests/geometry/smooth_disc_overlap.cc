@@ -119,7 +119,7 @@ TEST(SmoothDiscOverlap, PiecesAddUpToTheDisc)
 TEST(SmoothDiscOverlap, IsAPileOfEvenDiscs)
 {
   Moments worst{};
-  for_all(20, [&](const Mesh &mesh, const Disc &disc) {
+  for_all(6, [&](const Mesh &mesh, const Disc &disc) {
     mesh.for_each_near(disc, [&](const unsigned c) {
       widen(worst, moments(smooth_overlap(disc, mesh.cells[c]), disc), from_even_discs(disc, mesh.cells[c]));
     });
