@@ -102,7 +102,8 @@ namespace
               std::printf(
                 "| %g | %s | %g | %.4f | %.4f | %.2f | %.4f |\n", packing, mesh.c_str(), h, low, high, u_max, range);
               std::fflush(stdout);
-              const double tolerance = h < 0.5 ? 0.03 : 0.01;
+              // a smooth filter has no viscosity at its edge, which would take back what the beds' looser paths give
+              const double tolerance = smooth ? 0.015 : h < 0.5 ? 0.03 : 0.01;
               expect(low > 1. - tolerance && high < 1. + tolerance);
               expect(u_max < 8.);
               expect(range < 1.01);
