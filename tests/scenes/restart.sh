@@ -37,8 +37,8 @@ for kind in bed adaptive triangles dry; do
   two_parts 1
   if [ $kind != adaptive ]; then
     cmp whole/statistics.csv half/statistics.csv || fail "$kind: a restart differs from the uninterrupted run"
-  else # the history of the mesh orders the unknowns, and so round-off
-    must_agree whole/statistics.csv half/statistics.csv --tolerance 1e-9 --ignore flux_imbalance
+  else # the history of the mesh orders the unknowns, and so round-off, which the bed thrown up amplifies
+    must_agree whole/statistics.csv half/statistics.csv --tolerance 1e-8 --ignore flux_imbalance
     grep -q '"mesh adaptations": [2-9]' half/summary.json || fail "expected the mesh to change"
   fi
 
