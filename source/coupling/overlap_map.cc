@@ -1,4 +1,6 @@
+#include <alluvium/coupling/grain_bins.h>
 #include <alluvium/coupling/overlap_map.h>
+#include <alluvium/coupling/solid_excess.h>
 #include <alluvium/geometry/grid_cutter.h>
 #include <alluvium/geometry/smooth_disc_overlap.h>
 #include <alluvium/utilities/user_error.h>
@@ -16,77 +18,6 @@ namespace alluvium::coupling
 
   namespace
   {
-    /** Discs sorted into square bins, so that a cell finds the discs near it. */
-    class GrainBins
-    {
-    public:
-      GrainBins(const std::vector<double> &x, const std::vector<double> &y, const double width)
-        : width(width)
-      {
-        lower = {{*std::min_element(x.begin(), x.end()), *std::min_element(y.begin(), y.end())}};
-        const std::array<double, 2> upper = {
-          {*std::max_element(x.begin(), x.end()), *std::max_element(y.begin(), y.end())}};
-        for (unsigned int d = 0; d < 2; ++d)
-          n[d] = 1 + static_cast<int>((upper[d] - lower[d]) / width);
-        begin.assign(n[0] * n[1] + 1, 0);
-        std::vector<int> bin(x.size());
-        for (std::size_t g = 0; g < x.size(); ++g)
-          {
-            bin[g] = index(y[g], 1) * n[0] + index(x[g], 0);
-            ++begin[bin[g] + 1];
-          }
-        for (std::size_t b = 1; b < begin.size(); ++b)
-          begin[b] += begin[b - 1];
-        member.resize(x.size());
-        std::vector<unsigned int> next(begin.begin(), begin.end() - 1);
-        for (std::size_t g = 0; g < x.size(); ++g)
-          member[next[bin[g]]++] = g;
-      }
-
-      /** All grains whose centres may lie in the box, in rising order. */
-      void
-      find(const std::array<double, 2> &low, const std::array<double, 2> &high, std::vector<unsigned int> &found) const
-      {
-        found.clear();
-        for (unsigned int d = 0; d < 2; ++d)
-          if (high[d] < lower[d] || low[d] > lower[d] + n[d] * width)
-            return;
-        const int i0 = index(low[0], 0), i1 = index(high[0], 0);
-        for (int j = index(low[1], 1); j <= index(high[1], 1); ++j)
-          found.insert(found.end(), member.begin() + begin[j * n[0] + i0], member.begin() + begin[j * n[0] + i1 + 1]);
-        std::sort(found.begin(), found.end());
-      }
-
-      /** Note that something changed at (x, y). */
-      void mark(const double x, const double y)
-      {
-        marked.resize(begin.size() - 1, 0);
-        marked[index(y, 1) * n[0] + index(x, 0)] = 1;
-      }
-
-      /** Did anything change in the box? */
-      bool is_marked(const std::array<double, 2> &low, const std::array<double, 2> &high) const
-      {
-        const int i0 = index(low[0], 0), i1 = index(high[0], 0);
-        for (int j = index(low[1], 1); j <= index(high[1], 1); ++j)
-          if (std::any_of(marked.begin() + j * n[0] + i0, marked.begin() + j * n[0] + i1 + 1, [](auto m) { return m; }))
-            return true;
-        return false;
-      }
-
-    private:
-      int index(const double x, const unsigned int d) const
-      {
-        return std::clamp(static_cast<int>((x - lower[d]) / width), 0, n[d] - 1);
-      }
-
-      double                    width;
-      std::array<double, 2>     lower;
-      std::array<int, 2>        n;
-      std::vector<unsigned int> begin, member;
-      std::vector<std::uint8_t> marked;
-    };
-
     /** Pieces that were, by cell. */
     struct PieceStore
     {
@@ -516,60 +447,7 @@ namespace alluvium::coupling
       }
     solid.compress(VectorOperation::add);
 
-    // overfull nodes hand their excess to the nodes of their cells, in proportion to the room there (in few passes; 200
-    // are for crowds)
-    double moved = 0.;
-    for (unsigned int pass = 0; pass < 200; ++pass)
-      {
-        fluid::Vector excess = space->make_nodal_field(), room = space->make_nodal_field(),
-                      share = space->make_nodal_field();
-        double total        = 0.;
-        for (unsigned int i = 0; i < solid.locally_owned_size(); ++i)
-          {
-            const double over       = solid.local_element(i) - volumes.local_element(i);
-            const bool   hanging    = volumes.local_element(i) == 0.;
-            excess.local_element(i) = hanging ? 0. : std::max(0., over);
-            // a little also for full nodes, which hand it on: excess must get out of a crowd
-            room.local_element(i) = hanging ? 0. : std::max(0., -over) + 1e-2 * volumes.local_element(i);
-            if (over > 1e-13 * volumes.local_element(i))
-              total += excess.local_element(i);
-          }
-        total = Utilities::MPI::sum(total, space->communicator());
-        if (total == 0.)
-          break;
-        if (pass == 0)
-          moved = total;
-        excess.update_ghost_values();
-        room.update_ghost_values();
-        // room around each node, then its excess in shares of that
-        fluid::Vector around = space->make_nodal_field();
-        for (int stage = 0; stage < 2; ++stage)
-          {
-            fluid::Vector &target = stage == 0 ? around : share;
-            for (const auto &cell : space->cells())
-              {
-                double in_cell = 0.;
-                for (unsigned int v = 0; v < n; ++v)
-                  in_cell += room.local_element(cell.node[v]);
-                for (unsigned int v = 0; v < n; ++v)
-                  if (excess.local_element(cell.node[v]) > 0.)
-                    {
-                      if (stage == 0)
-                        target.local_element(cell.node[v]) += in_cell;
-                      else if (around.local_element(cell.node[v]) > 0.)
-                        for (unsigned int w = 0; w < n; ++w)
-                          target.local_element(cell.node[w]) += excess.local_element(cell.node[v]) *
-                                                                room.local_element(cell.node[w]) /
-                                                                around.local_element(cell.node[v]);
-                    }
-              }
-            target.compress(VectorOperation::add);
-            target.update_ghost_values();
-          }
-        for (unsigned int i = 0; i < solid.locally_owned_size(); ++i)
-          if (around.local_element(i) > 0. || excess.local_element(i) == 0.)
-            solid.local_element(i) += share.local_element(i) - excess.local_element(i);
-      }
+    const double moved = spread_excess(*space, solid);
 
     eps.zero_out_ghost_values();
     for (unsigned int i = 0; i < eps.locally_owned_size(); ++i)
