@@ -98,7 +98,7 @@ namespace alluvium::fluid
     /** Inertia and drag of the owned velocities, and how far diffusion outweighs them. */
     struct RowSums
     {
-      std::vector<double> sum, absolute;
+      std::vector<double> sum;
       double              largest_ratio = 0.; // of a diagonal entry over its row sum, on any rank
 
       RowSums(const TrilinosWrappers::SparseMatrix &matrix, const LinearSolverScales &scales)
@@ -106,7 +106,6 @@ namespace alluvium::fluid
         const Epetra_CrsMatrix &rows = matrix.trilinos_matrix();
         Epetra_Vector           diagonal(rows.RowMap());
         rows.ExtractDiagonalCopy(diagonal);
-        const auto add_size = [](const double sum, const double x) { return sum + std::abs(x); };
         for (int i = 0; i < rows.NumMyRows(); ++i)
           {
             // convection can turn the sign of those next to walls, whose columns are missing
@@ -115,12 +114,26 @@ namespace alluvium::fluid
             double      *value  = nullptr;
             rows.ExtractMyRowView(i, n, value);
             sum.push_back(std::max(std::accumulate(value, value + n, 0.), 0.1 * scales.inertia * volume));
-            absolute.push_back(std::accumulate(value, value + n, 0., add_size));
             largest_ratio = std::max(largest_ratio, diagonal[i] / sum[i]);
           }
         largest_ratio = Utilities::MPI::max(largest_ratio, matrix.get_mpi_communicator());
       }
     };
+
+    /** Sums of the absolute values of the owned rows. */
+    std::vector<double> absolute_row_sums(const Epetra_CrsMatrix &rows)
+    {
+      std::vector<double> sums(rows.NumMyRows());
+      for (int i = 0; i < rows.NumMyRows(); ++i)
+        {
+          int     n     = 0;
+          double *value = nullptr;
+          rows.ExtractMyRowView(i, n, value);
+          sums[i] =
+            std::accumulate(value, value + n, 0., [](const double s, const double x) { return s + std::abs(x); });
+        }
+      return sums;
+    }
   } // namespace
 
 
@@ -164,7 +177,7 @@ namespace alluvium::fluid
     velocity.initialize(A, TrilinosWrappers::PreconditionILU::AdditionalData(0));
 
     const RowSums                 row_sums(A, scales);
-    const auto                   &mass = convective ? row_sums.absolute : row_sums.sum;
+    const std::vector<double>     mass = convective ? absolute_row_sums(rows) : row_sums.sum;
     TrilinosWrappers::MPI::Vector inverse(A.locally_owned_range_indices(), A.get_mpi_communicator());
     inverse_mass.reinit(scales.volumes.block(0), true);
     for (int i = 0; i < rows.NumMyRows(); ++i)
@@ -247,8 +260,9 @@ namespace alluvium::fluid
         const TrilinosWrappers::PreconditionBase &first =
           diffusive ? static_cast<const TrilinosWrappers::PreconditionBase &>(coarse_velocity) : velocity;
         std::vector<double> lumped;
-        if (RowSums of_now(matrix.block(0, 0), scales); !convective && of_now.largest_ratio < lumping_ratio)
-          lumped = std::move(of_now.sum);
+        if (!convective)
+          if (RowSums of_now(matrix.block(0, 0), scales); of_now.largest_ratio < lumping_ratio)
+            lumped = std::move(of_now.sum);
         const BlockFactors preconditioner{
           matrix, first, velocity, pressure, mobility, lumped, convective ? &inverse_mass : nullptr, ratio, rhs, rhs};
         x     = 0.;
