@@ -2,6 +2,7 @@
 #include <alluvium/scene/declared_parameters.h>
 #include <alluvium/scene/parameter_file.h>
 #include <alluvium/simulation.h>
+#include <alluvium/utilities/mpi_environment.h>
 #include <alluvium/utilities/signals.h>
 #include <alluvium/utilities/user_error.h>
 
@@ -223,8 +224,8 @@ namespace alluvium
     char  *name[]   = {argv[0], nullptr};
     char **mpi_argv = name;
 
-    dealii::Utilities::MPI::MPI_InitFinalize mpi(mpi_argc, mpi_argv, 1);
-    const bool is_first_rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    const MpiEnvironment mpi(mpi_argc, mpi_argv);
+    const bool           is_first_rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
 
     // A communicator of its own: what finish() sends must not meet what a failed step has left behind.
     MPI_Comm communicator;

@@ -1,11 +1,11 @@
 // Common main() of the unit tests: MPI is up, so that tests may use deal.II's distributed classes.
-#include <deal.II/base/mpi.h>
+#include <alluvium/utilities/mpi_environment.h>
 
 #include <gtest/gtest.h>
 
 int main(int argc, char **argv)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const alluvium::MpiEnvironment mpi(argc, argv);
   ::testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();
 }

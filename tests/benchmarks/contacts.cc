@@ -15,6 +15,7 @@
 #include <alluvium/grains/contact_neighbours.h>
 #include <alluvium/grains/contact_stepper.h>
 #include <alluvium/grains/deposit.h>
+#include <alluvium/utilities/mpi_environment.h>
 #include <alluvium/utilities/plugin.h>
 
 #include <deal.II/base/mpi.h>
@@ -422,7 +423,7 @@ int MPI_Allgatherv(const void  *from,
 
 int main(int argc, char **argv)
 {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const alluvium::MpiEnvironment mpi(argc, argv);
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   std::string         solver = "accelerated Gauss-Seidel";
   double              time = 0.05, shake = 0., fluidise = 0., kick = 0.;

@@ -9,6 +9,7 @@
 // first; then one step makes a new preconditioner ("fresh"), and the others keep it ("kept").
 #include "../coupling/bed.h"
 
+#include <alluvium/utilities/mpi_environment.h>
 #include <alluvium/utilities/timers.h>
 
 #include <cstdio>
@@ -60,9 +61,9 @@ namespace
 
 int main(int argc, char **argv)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const double                             n_cells = argc > 1 ? std::stod(argv[1]) : 1e4;
-  bed::Settings                            s;
+  const alluvium::MpiEnvironment mpi(argc, argv);
+  const double                   n_cells = argc > 1 ? std::stod(argv[1]) : 1e4;
+  bed::Settings                  s;
   s.h_over_d                 = argc > 2 ? std::stod(argv[2]) : 1.;
   s.dt                       = argc > 3 ? std::stod(argv[3]) : 1e-3;
   s.filter                   = argc > 4 ? std::stod(argv[4]) : 2.;
