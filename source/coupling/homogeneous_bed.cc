@@ -1,5 +1,5 @@
 #include <alluvium/coupling/homogeneous_bed.h>
-#include <alluvium/fluid/vans_assembler.h>
+#include <alluvium/fluid/vans_problem.h>
 #include <alluvium/grains/packing.h>
 
 #include <deal.II/base/numbers.h>

@@ -1,3 +1,4 @@
+#include <alluvium/fluid/boundary_nodes.h>
 #include <alluvium/fluid/fluid_space.h>
 #include <alluvium/fluid/piece_gradients.h>
 #include <alluvium/utilities/user_error.h>
@@ -13,7 +14,6 @@
 #include <deal.II/grid/tria.h>
 
 #include <limits>
-#include <set>
 
 namespace alluvium::fluid
 {
@@ -33,29 +33,6 @@ namespace alluvium::fluid
       if (simplex)
         return QGaussSimplex<dim>(2);
       return QGauss<dim>(2);
-    }
-
-    // the same cell seen by another DoFHandler (deal.II has a member function for it only from 9.5 on)
-    template <int dim>
-    typename DoFHandler<dim>::active_cell_iterator
-    nodal_iterator(const typename DoFHandler<dim>::active_cell_iterator &cell, const DoFHandler<dim> &other)
-    {
-      return {&cell->get_triangulation(), cell->level(), cell->index(), &other};
-    }
-
-    template <typename Cell>
-    bool is_on_face(const Cell &cell, const unsigned int f, const unsigned int v)
-    {
-      for (const unsigned int w : cell->face(f)->vertex_indices())
-        if (cell->face(f)->vertex_index(w) == cell->vertex_index(v))
-          return true;
-      return false;
-    }
-
-    template <int dim>
-    Quadrature<dim - 1> face_quadrature()
-    {
-      return QGauss<dim - 1>(2);
     }
   } // namespace
 
@@ -136,131 +113,12 @@ namespace alluvium::fluid
   template <int dim>
   void FluidSpace<dim>::make_constraints(const BoundaryConditions<dim> &boundary_conditions)
   {
-    using Kind = typename BoundaryConditions<dim>::Kind;
+    const BoundaryNodes<dim> boundary(*this, boundary_conditions);
+    inflow = boundary.inflow;
     system_constraints.clear();
     system_constraints.reinit(relevant_all);
     system_constraints.merge(hanging);
-    boundary_dofs.clear();
-    boundary_weights.clear();
-    inflow.clear();
-
-    // nodes of each boundary, and the normals of the slip walls that meet at a node
-    struct Node
-    {
-      std::array<types::global_dof_index, dim + 1> dof;
-      Point<dim>                                   point;
-      std::map<Kind, types::boundary_id>           kinds;
-      std::vector<Tensor<1, dim>>                  slip_normals;
-    };
-    std::map<types::global_dof_index, Node>                         nodes; // by nodal dof
-    std::map<types::boundary_id, std::set<types::global_dof_index>> on_boundary;
-
-    const Quadrature<dim - 1> quadrature = face_quadrature<dim>();
-    FEFaceValues<dim>         face_values(
-      *map, *scalar_fe, quadrature, update_values | update_normal_vectors | update_JxW_values);
-    std::vector<types::global_dof_index> cell_dofs(system_fe->n_dofs_per_cell()), cell_nodes(n_nodes);
-
-    unsigned int cell_index = 0;
-    for (const auto &cell : dofs.active_cell_iterators())
-      {
-        if (cell->is_artificial())
-          continue;
-        const unsigned int my_index = cell_index;
-        cell_index += cell->is_locally_owned();
-        if (!cell->at_boundary())
-          continue;
-        const auto nodal_cell = nodal_iterator(cell, nodal_dofs);
-        cell->get_dof_indices(cell_dofs);
-        nodal_cell->get_dof_indices(cell_nodes);
-        for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary())
-            {
-              const auto id = cell->face(f)->boundary_id();
-              if (box.length[id / 2 % dim] > 0.)
-                continue; // no boundary: the mesh goes on at the other side
-              const auto &condition = boundary_conditions.all().at(id);
-              face_values.reinit(nodal_cell, f);
-              for (unsigned int v = 0; v < n_nodes; ++v)
-                {
-                  // nodes are vertices; FE_SimplexP has no has_support_on_face() of its own
-                  if (!is_on_face(cell, f, v))
-                    continue;
-                  Node &node = nodes[cell_nodes[v]];
-                  for (unsigned int c = 0; c <= dim; ++c)
-                    node.dof[c] = cell_dofs[system_fe->component_to_system_index(c, v)];
-                  node.point = cell->vertex(v);
-                  node.kinds.emplace(condition.kind, id);
-                  if (condition.kind == Kind::slip)
-                    node.slip_normals.push_back(face_values.normal_vector(0));
-                  on_boundary[id].insert(cell_nodes[v]);
-                }
-              if (condition.kind == Kind::velocity && cell->is_locally_owned())
-                {
-                  InflowFace face;
-                  face.cell = my_index;
-                  for (unsigned int q = 0; q < quadrature.size(); ++q)
-                    {
-                      std::array<double, max_nodes<dim>> phi{};
-                      for (unsigned int v = 0; v < n_nodes; ++v)
-                        phi[v] = face_values.shape_value(v, q);
-                      face.phi.push_back(phi);
-                      face.normal_jxw.push_back(face_values.normal_vector(q) * face_values.JxW(q));
-                    }
-                  inflow.push_back(face);
-                }
-            }
-      }
-
-    const auto fix = [&](const Node &node, const unsigned int component) {
-      if (!system_constraints.is_constrained(node.dof[component]))
-        system_constraints.add_line(node.dof[component]);
-    };
-    for (const auto &[index, node] : nodes)
-      {
-        const auto prescribe = [&](const unsigned int component, const types::boundary_id id) {
-          if (hanging.is_constrained(node.dof[component]))
-            return;
-          fix(node, component);
-          boundary_dofs.push_back({node.dof[component], id, component, node.point});
-        };
-        if (const auto it = node.kinds.find(Kind::pressure); it != node.kinds.end())
-          prescribe(dim, it->second);
-        // where a wall meets an inflow, the wall wins: its velocity is zero
-        if (node.kinds.count(Kind::no_slip))
-          for (unsigned int c = 0; c < dim; ++c)
-            fix(node, c);
-        else if (const auto it = node.kinds.find(Kind::velocity); it != node.kinds.end())
-          for (unsigned int c = 0; c < dim; ++c)
-            prescribe(c, it->second);
-        else if (!node.slip_normals.empty())
-          {
-            const Tensor<1, dim> first = node.slip_normals.front();
-            const bool corner = std::any_of(node.slip_normals.begin(), node.slip_normals.end(), [&](const auto &m) {
-              return std::abs(m * first) < 0.9; // steeper than about 26 degrees: a corner, not a curved wall
-            });
-            if (corner)
-              for (unsigned int c = 0; c < dim; ++c)
-                fix(node, c);
-            else
-              {
-                Tensor<1, dim> normal;
-                for (const auto &m : node.slip_normals)
-                  normal += m;
-                normal /= normal.norm();
-                unsigned int c = 0;
-                for (unsigned int e = 1; e < dim; ++e)
-                  if (std::abs(normal[e]) > std::abs(normal[c]))
-                    c = e;
-                if (!system_constraints.is_constrained(node.dof[c]))
-                  {
-                    system_constraints.add_line(node.dof[c]);
-                    for (unsigned int e = 0; e < dim; ++e)
-                      if (e != c && std::abs(normal[e]) > 1e-12)
-                        system_constraints.add_entry(node.dof[c], node.dof[e], -normal[e] / normal[c]);
-                  }
-              }
-          }
-      }
+    boundary_dofs = boundary.constrain(hanging, system_constraints);
     if (boundary_conditions.pins_pressure())
       {
         const types::global_dof_index first_pressure = partitioners[0]->size();
@@ -269,15 +127,17 @@ namespace alluvium::fluid
       }
     system_constraints.close();
 
+    boundary_weights.clear();
+    std::vector<types::global_dof_index> cell_nodes(n_nodes);
     for (const auto &[id, condition] : boundary_conditions.all())
       {
         Vector weight = make_nodal_field();
-        for (const auto index : on_boundary[id])
+        for (const auto index : boundary.nodes_of(id))
           if (nodal_partitioner->in_local_range(index))
             weight(index) = 1.;
         interpolate_hanging_nodes(weight);
-        auto &list = boundary_weights[id];
-        cell_index = 0;
+        auto        &list       = boundary_weights[id];
+        unsigned int cell_index = 0;
         for (const auto &cell : nodal_dofs.active_cell_iterators())
           if (cell->is_locally_owned())
             {
@@ -310,10 +170,10 @@ namespace alluvium::fluid
     for (const auto &cell : dofs.active_cell_iterators())
       if (cell->is_locally_owned())
         {
-          const auto nodal_cell = nodal_iterator(cell, nodal_dofs);
-          values.reinit(nodal_cell);
+          const auto nodal = nodal_cell(cell);
+          values.reinit(nodal);
           cell->get_dof_indices(cell_dofs);
-          nodal_cell->get_dof_indices(cell_nodes);
+          nodal->get_dof_indices(cell_nodes);
           CellData<dim> data{};
           data.size = cell->diameter() / std::sqrt(double(dim));
           for (unsigned int q = 0; q < n_q; ++q)
@@ -393,7 +253,7 @@ namespace alluvium::fluid
                                                 const Action                  &action) const
   {
     const types::global_dof_index first_pressure = partitioners[0]->size();
-    for (const BoundaryDof &b : boundary_dofs)
+    for (const PrescribedDof<dim> &b : boundary_dofs)
       {
         const Function<dim> &value = *boundary_conditions.all().at(b.boundary).value;
         if (b.component == dim)
@@ -451,7 +311,7 @@ namespace alluvium::fluid
     const auto              nowhere = std::numeric_limits<types::global_dof_index>::max();
     types::global_dof_index first   = nowhere;
     double                  value   = 0.;
-    for (const BoundaryDof &b : boundary_dofs)
+    for (const PrescribedDof<dim> &b : boundary_dofs)
       if (b.component == dim && b.dof < first)
         {
           first = b.dof;

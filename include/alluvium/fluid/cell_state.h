@@ -1,6 +1,6 @@
 #pragma once
 
-#include <alluvium/fluid/vans_assembler.h>
+#include <alluvium/fluid/vans_problem.h>
 
 namespace alluvium::fluid
 {

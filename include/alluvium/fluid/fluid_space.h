@@ -1,6 +1,7 @@
 #pragma once
 
 #include <alluvium/fluid/boundary_conditions.h>
+#include <alluvium/fluid/boundary_nodes.h>
 #include <alluvium/fluid/interphase.h>
 
 #include <deal.II/dofs/dof_handler.h>
@@ -103,8 +104,14 @@ namespace alluvium::fluid
     const dealii::Mapping<dim>       &mapping() const { return *map; }
     const dealii::DoFHandler<dim>    &dof_handler() const { return dofs; }
     const dealii::DoFHandler<dim>    &nodal_dof_handler() const { return nodal_dofs; }
-    dealii::types::global_dof_index   n_dofs() const { return dofs.n_dofs(); }
-    MPI_Comm                          communicator() const { return tria->get_communicator(); }
+    /** @p cell, which belongs to dof_handler(), as nodal_dof_handler() sees it. */
+    typename dealii::DoFHandler<dim>::active_cell_iterator
+    nodal_cell(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell) const
+    {
+      return {tria, cell->level(), cell->index(), &nodal_dofs}; // deal.II has a function for it only from 9.5 on
+    }
+    dealii::types::global_dof_index n_dofs() const { return dofs.n_dofs(); }
+    MPI_Comm                        communicator() const { return tria->get_communicator(); }
 
     /** Hanging nodes and boundary conditions, all homogeneous (for increments); hanging nodes alone. */
     const dealii::AffineConstraints<double> &constraints() const { return system_constraints; }
@@ -129,14 +136,7 @@ namespace alluvium::fluid
       return boundary_weights.at(id);
     }
 
-    /** A face with prescribed velocity, through which the continuity equation needs the flux. */
-    struct InflowFace
-    {
-      unsigned int                                    cell;
-      std::vector<std::array<double, max_nodes<dim>>> phi; // [quadrature point][node of the cell]
-      std::vector<dealii::Tensor<1, dim>>             normal_jxw;
-    };
-    const std::vector<InflowFace> &inflow_faces() const { return inflow; }
+    const std::vector<InflowFace<dim>> &inflow_faces() const { return inflow; }
 
     /** Fill a nodal field's hanging nodes by interpolation. */
     void interpolate_hanging_nodes(Vector &nodal_field) const;
@@ -169,17 +169,9 @@ namespace alluvium::fluid
     std::vector<CellData<dim>>                                     cell_data;
     Vector                                                         volumes;
 
-    /** A dof whose value a boundary condition gives: a component of the boundary's function at a point. */
-    struct BoundaryDof
-    {
-      dealii::types::global_dof_index dof;
-      dealii::types::boundary_id      boundary;
-      unsigned int                    component; // dim: pressure
-      dealii::Point<dim>              point;
-    };
-    std::vector<BoundaryDof>                                          boundary_dofs;
+    std::vector<PrescribedDof<dim>>                                   boundary_dofs;
     std::map<dealii::types::boundary_id, std::vector<BoundaryWeight>> boundary_weights;
-    std::vector<InflowFace>                                           inflow;
+    std::vector<InflowFace<dim>>                                      inflow;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner>              nodal_partitioner;
     std::vector<std::shared_ptr<const dealii::Utilities::MPI::Partitioner>> partitioners;

@@ -2,43 +2,12 @@
 
 #include <alluvium/fluid/fluid_space.h>
 #include <alluvium/fluid/matrix_scatter.h>
+#include <alluvium/fluid/vans_problem.h>
 
 #include <deal.II/lac/trilinos_block_sparse_matrix.h>
 
 namespace alluvium::fluid
 {
-  struct FluidProperties
-  {
-    double density   = 1000.; // [kg/m^3]
-    double viscosity = 1e-3;  // dynamic [Pa s]
-  };
-
-  /** Switches of the discretisation that charts compare. */
-  struct Discretisation
-  {
-    bool lumped_drag = true; // row-sum lumping of the drag in the momentum equation
-    bool convection  = true; // u.grad u and its stabilisation
-  };
-
-  /**
-   * One linearised VANS problem (paper (12)-(13)): its data at t^n and its known terms. All fields ghosted.
-   */
-  template <int dim>
-  struct VansProblem
-  {
-    FluidProperties               fluid;
-    Discretisation                discretisation;
-    double                        dt;
-    const Vector                 *void_fraction;              // nodal
-    const BlockVector            *old;                        // u^n (block 0)
-    const BlockVector            *inertia          = nullptr; // u of du/dt = (u^{n+1} - u)/dt where that is not u^n
-    double                        stabilisation_dt = 0.;      // dt of tau where that is not dt [s]
-    const InterphaseTerms<dim>   *solid;
-    std::array<const Vector *, 3> reference   = {{nullptr, nullptr, nullptr}}; // u_ref of the pieces; [0] stays null
-    const dealii::Function<dim>  *body_force  = nullptr; // [N/m^3], dim components; for manufactured solutions
-    const dealii::Function<dim>  *mass_source = nullptr; // [1/s]
-  };
-
   /**
    * Assembles the stabilised weak form for increments around an iterate x that already has its boundary values:
    *   A dx = r(x) = known terms - A x,  with homogeneous constraints.
