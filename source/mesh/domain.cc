@@ -1,5 +1,7 @@
+#include <alluvium/mesh/bisection.h>
 #include <alluvium/mesh/domain.h>
 #include <alluvium/mesh/gmsh_file.h>
+#include <alluvium/mesh/straight_sides.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/mpi.h>
@@ -48,119 +50,6 @@ namespace alluvium::mesh
         {
           throw UserError("Mesh file '" + path + "' cannot be used: " + message_of(error));
         }
-    }
-
-    /** Cut cells [begin, end) into parts first_part ... first_part + n_parts - 1 by their centres, halving the longer
-     * side. */
-    template <int dim>
-    void bisect(const std::vector<Point<dim>>        &centers,
-                const std::vector<unsigned>::iterator begin,
-                const std::vector<unsigned>::iterator end,
-                const unsigned int                    first_part,
-                const unsigned int                    n_parts,
-                std::vector<types::subdomain_id>     &part)
-    {
-      if (n_parts == 1)
-        {
-          std::for_each(begin, end, [&](const unsigned int i) { part[i] = first_part; });
-          return;
-        }
-      unsigned int axis    = 0;
-      double       longest = -1.;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const auto [a, b] = std::minmax_element(
-            begin, end, [&](const unsigned int i, const unsigned int j) { return centers[i][d] < centers[j][d]; });
-          if (begin != end && centers[*b][d] - centers[*a][d] > longest)
-            {
-              longest = centers[*b][d] - centers[*a][d];
-              axis    = d;
-            }
-        }
-      const unsigned int low    = n_parts / 2;
-      const auto         middle = begin + (end - begin) * std::size_t(low) / n_parts;
-      std::nth_element(begin, middle, end, [&](const unsigned int i, const unsigned int j) {
-        return centers[i][axis] != centers[j][axis] ? centers[i][axis] < centers[j][axis] : i < j;
-      });
-      bisect(centers, begin, middle, first_part, low, part);
-      bisect(centers, middle, end, first_part + low, n_parts - low, part);
-    }
-
-    template <int dim>
-    void partition_by_bisection(parallel::shared::Triangulation<dim> &triangulation)
-    {
-      std::vector<Point<dim>>   centers;
-      std::vector<unsigned int> order;
-      for (const auto &cell : triangulation.active_cell_iterators())
-        {
-          order.push_back(centers.size());
-          centers.push_back(cell->center());
-        }
-      std::vector<types::subdomain_id> part(centers.size(), 0);
-      bisect(centers,
-             order.begin(),
-             order.end(),
-             0,
-             Utilities::MPI::n_mpi_processes(triangulation.get_communicator()),
-             part);
-      std::size_t i = 0;
-      for (const auto &cell : triangulation.active_cell_iterators())
-        cell->set_subdomain_id(part[i++]);
-    }
-
-    /** A side of a cell on the boundary. */
-    struct Side
-    {
-      unsigned int       a, b; // vertices
-      types::boundary_id id;
-    };
-
-    /** The boundary of @p triangulation with the sides that continue each other straight on joined. */
-    template <int dim>
-    std::vector<std::array<Point<dim>, 2>> straight_sides(const Triangulation<dim>        &triangulation,
-                                                          const std::vector<Side>         &sides,
-                                                          std::vector<types::boundary_id> &side_ids)
-    {
-      const auto                                      &vertex = triangulation.get_vertices();
-      std::map<unsigned int, std::vector<std::size_t>> at_vertex;
-      for (std::size_t s = 0; s < sides.size(); ++s)
-        {
-          at_vertex[sides[s].a].push_back(s);
-          at_vertex[sides[s].b].push_back(s);
-        }
-
-      std::vector<std::array<Point<dim>, 2>> result;
-      std::vector<bool>                      used(sides.size(), false);
-      for (std::size_t s = 0; s < sides.size(); ++s)
-        if (!used[s])
-          {
-            used[s] = true;
-            std::array<unsigned int, 2> ends{{sides[s].a, sides[s].b}};
-            const Tensor<1, dim>        direction = vertex[ends[1]] - vertex[ends[0]];
-            for (unsigned int &end : ends)
-              for (bool go_on = true; go_on;)
-                {
-                  go_on             = false;
-                  const auto &meets = at_vertex.at(end);
-                  if (meets.size() != 2)
-                    break;
-                  const std::size_t next = used[meets[0]] ? meets[1] : meets[0];
-                  if (used[next] || sides[next].id != sides[s].id)
-                    break;
-                  const unsigned int   far  = sides[next].a == end ? sides[next].b : sides[next].a;
-                  const Tensor<1, dim> step = vertex[far] - vertex[end];
-                  // a polygonal arc has corners of far more than 1e-9
-                  const Tensor<1, dim> across = step - (step * direction) / direction.norm_square() * direction;
-                  if (across.norm() > 1e-9 * step.norm())
-                    break;
-                  used[next] = true;
-                  end        = far;
-                  go_on      = true;
-                }
-            result.push_back({{vertex[ends[0]], vertex[ends[1]]}});
-            side_ids.push_back(sides[s].id);
-          }
-      return result;
     }
   } // namespace
 
