@@ -163,6 +163,7 @@ namespace alluvium
     counts["steps that ended above the tolerance of repetitions"] += !model.contact_iteration.agrees();
     counts["fluid steps like the last"] += model.coupling.report().steady;
     counts["linear solves above the tolerance"] += model.coupling.report().n_loose;
+    counts["steps with cells too uneven to be cut by lines"] += model.coupling.overlap().is_too_uneven();
   }
 
 

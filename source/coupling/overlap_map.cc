@@ -1,7 +1,7 @@
 #include <alluvium/coupling/grain_bins.h>
+#include <alluvium/coupling/grain_images.h>
 #include <alluvium/coupling/overlap_map.h>
 #include <alluvium/coupling/solid_excess.h>
-#include <alluvium/geometry/grid_cutter.h>
 #include <alluvium/geometry/smooth_disc_overlap.h>
 #include <alluvium/utilities/user_error.h>
 
@@ -9,8 +9,6 @@
 #include <deal.II/base/numbers.h>
 
 #include <algorithm>
-#include <limits>
-#include <numeric>
 
 namespace alluvium::coupling
 {
@@ -18,15 +16,6 @@ namespace alluvium::coupling
 
   namespace
   {
-    /** Pieces that were, by cell. */
-    struct PieceStore
-    {
-      std::vector<unsigned int>         begin;
-      std::vector<fluid::PieceShape<2>> shape;
-      std::vector<unsigned int>         grain;
-      std::vector<double>               raw_area;
-    };
-
     /** The whole cell as the piece of a disc with its centre in it, on its edges too; else nothing. */
     geometry::Overlap cell_of_centre(const geometry::Point2 &centre, const geometry::PreparedPolygon &cell)
     {
@@ -40,59 +29,15 @@ namespace alluvium::coupling
   } // namespace
 
 
-  /**
-   * The grains, and their images that reach into the domain from beside it: shifted by the length of a periodic box,
-   * mirrored at straight sides. What of a grain's disc leaves the domain there comes back in, so that grains which
-   * fill the domain evenly fill it evenly up to its sides.
-   */
-  struct OverlapMap::Images
+  struct OverlapMap::PieceStore
   {
-    Images() = default;
+    std::vector<unsigned int>           begin;
+    std::vector<fluid::PieceShape<dim>> shape;
+    std::vector<unsigned int>           grain;
+    std::vector<double>                 raw_area;
+    std::vector<PieceArm>               arm;
 
-    std::vector<double>                x, y;
-    std::vector<unsigned int>          grain;  // the one it is an image of
-    std::vector<std::array<double, 2>> offset; // of a mirror image's centre from the grain's [m]
-
-    Images(const std::vector<double>                &grain_x,
-           const std::vector<double>                &grain_y,
-           const double                              reach,
-           const fluid::FluidSpace<2>::PeriodicBox  &box,
-           const std::array<std::vector<double>, 2> &mirrors)
-      : x(grain_x)
-      , y(grain_y)
-      , grain(grain_x.size())
-      , offset(grain_x.size())
-    {
-      std::iota(grain.begin(), grain.end(), 0u);
-      for (unsigned int d = 0; d < 2; ++d)
-        {
-          const std::size_t n = x.size(); // images of images in the second direction: the corners
-          for (std::size_t k = 0; k < n; ++k)
-            {
-              const double here = d == 0 ? x[k] : y[k];
-              if (box.length[d] > 0.)
-                {
-                  for (const double shift : {-box.length[d], box.length[d]})
-                    if (here + shift > box.lower[d] - reach && here + shift < box.lower[d] + box.length[d] + reach)
-                      add(k, d, here + shift, 0.);
-                }
-              else
-                for (const double side : mirrors[d])
-                  if (std::abs(here - side) < reach)
-                    add(k, d, 2. * side - here, 2. * (side - here));
-            }
-        }
-    }
-
-  private:
-    void add(const std::size_t k, const unsigned int d, const double moved, const double off)
-    {
-      x.push_back(d == 0 ? moved : x[k]);
-      y.push_back(d == 1 ? moved : y[k]);
-      grain.push_back(grain[k]);
-      offset.push_back(offset[k]);
-      offset.back()[d] += off;
-    }
+    unsigned int n(const unsigned int cell) const { return begin[cell + 1] - begin[cell]; }
   };
 
 
@@ -115,49 +60,9 @@ namespace alluvium::coupling
           polygon.vertex[n == 4 && v >= 2 ? 5 - v : v] = {{cell.vertex[v][0], cell.vertex[v][1]}};
         polygons.emplace_back(polygon);
       }
-    grid = geometry::RectangleGrid(polygons);
-    find_mirrors();
-  }
-
-
-  void OverlapMap::find_mirrors()
-  {
-    const MPI_Comm                         comm = space->communicator();
-    std::array<std::array<double, 2>, dim> limits; // [direction][low, high]
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        double low = std::numeric_limits<double>::max(), high = -low;
-        for (const auto &cell : space->cells())
-          for (unsigned int v = 0; v < space->n_nodes_per_cell(); ++v)
-            {
-              low  = std::min(low, cell.vertex[v][d]);
-              high = std::max(high, cell.vertex[v][d]);
-            }
-        limits[d] = {{Utilities::MPI::min(low, comm), Utilities::MPI::max(high, comm)}};
-      }
-    // a side of the bounding box is a mirror if the boundary runs along all of it
-    std::array<double, 2 * dim> covered{};
-    for (const auto &cell : space->triangulation().active_cell_iterators())
-      if (cell->is_locally_owned() && cell->at_boundary())
-        for (const auto f : cell->face_indices())
-          if (cell->at_boundary(f))
-            for (unsigned int d = 0; d < dim; ++d)
-              for (unsigned int side = 0; side < 2; ++side)
-                {
-                  const double tolerance = 1e-10 * (limits[d][1] - limits[d][0]);
-                  const auto   face      = cell->face(f);
-                  if (std::abs(face->vertex(0)[d] - limits[d][side]) < tolerance &&
-                      std::abs(face->vertex(1)[d] - limits[d][side]) < tolerance)
-                    covered[2 * d + side] += face->measure();
-                }
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        mirrors[d].clear();
-        const double length = limits[1 - d][1] - limits[1 - d][0];
-        for (unsigned int side = 0; side < 2; ++side)
-          if (Utilities::MPI::sum(covered[2 * d + side], comm) > (1. - 1e-10) * length)
-            mirrors[d].push_back(limits[d][side]);
-      }
+    grid       = geometry::RectangleGrid(polygons);
+    mirrors    = straight_sides(*space);
+    too_uneven = Utilities::MPI::max(static_cast<unsigned int>(grid.too_uneven()), space->communicator()) > 0;
   }
 
 
@@ -198,10 +103,9 @@ namespace alluvium::coupling
           position.x[g] = grains.x[g];
           position.y[g] = grains.y[g];
         }
-    const Images now(position.x, position.y, max_radius, box, mirrors);
-    const Images then = all ? Images() : Images(before.x, before.y, max_radius, box, mirrors);
-    if (!grid.empty() && settings.rule != OverlapSettings::Rule::centre && !settings.keep_arms &&
-        settings.shape_of_discs() == OverlapSettings::Shape::even)
+    const GrainImages now(position.x, position.y, max_radius, box, mirrors);
+    const GrainImages then = all ? GrainImages() : GrainImages(before.x, before.y, max_radius, box, mirrors);
+    if (!grid.empty() && settings.rule != OverlapSettings::Rule::centre && !settings.keep_arms)
       cut_on_grid(now, then, moved, settings);
     else
       cut_cells(now, then, moved, settings);
@@ -224,18 +128,18 @@ namespace alluvium::coupling
   }
 
 
-  void OverlapMap::cut_cells(const Images                    &now,
-                             const Images                    &before,
+  void OverlapMap::cut_cells(const GrainImages               &now,
+                             const GrainImages               &before,
                              const std::vector<std::uint8_t> &moved,
                              const OverlapSettings           &settings)
   {
-    const bool   all        = before.x.empty();
+    const bool   all        = before.n() == 0;
     const double max_radius = *std::max_element(position.radius.begin(), position.radius.end());
     GrainBins    bins(now.x, now.y, max_radius);
     if (!all)
       {
-        const auto mark = [&](const Images &images) {
-          for (std::size_t k = 0; k < images.x.size(); ++k)
+        const auto mark = [&](const GrainImages &images) {
+          for (std::size_t k = 0; k < images.n(); ++k)
             if (moved[images.grain[k]])
               bins.mark(images.x[k], images.y[k]);
         };
@@ -243,18 +147,11 @@ namespace alluvium::coupling
         mark(now);
       }
 
-    const fluid::InterphaseTerms<dim> old_pieces = std::move(pieces);
-    const std::vector<unsigned int>   old_grain  = std::move(grain_of_piece);
-    const std::vector<double>         old_area   = std::move(raw_area);
-    const std::vector<PieceArm>       old_arm    = std::move(arm_of_piece);
+    const PieceStore old = take_pieces();
     pieces.begin.assign(1, 0);
-    pieces.shape.clear();
-    pieces.shape.reserve(old_pieces.shape.size());
-    grain_of_piece.clear();
-    grain_of_piece.reserve(old_grain.size());
-    raw_area.clear();
-    arm_of_piece.clear();
-    raw_area.reserve(old_area.size());
+    pieces.shape.reserve(old.shape.size());
+    grain_of_piece.reserve(old.shape.size());
+    raw_area.reserve(old.shape.size());
     const auto overlap_of_disc =
       settings.shape_of_discs() == OverlapSettings::Shape::smooth ? geometry::smooth_overlap : geometry::overlap;
     std::vector<unsigned int> candidates;
@@ -283,57 +180,49 @@ namespace alluvium::coupling
           }
         else
           {
-            const auto from = old_pieces.begin[c], to = old_pieces.begin[c + 1];
-            pieces.shape.insert(pieces.shape.end(), old_pieces.shape.begin() + from, old_pieces.shape.begin() + to);
-            grain_of_piece.insert(grain_of_piece.end(), old_grain.begin() + from, old_grain.begin() + to);
-            raw_area.insert(raw_area.end(), old_area.begin() + from, old_area.begin() + to);
-            if (settings.keep_arms)
-              arm_of_piece.insert(arm_of_piece.end(), old_arm.begin() + from, old_arm.begin() + to);
+            const std::size_t at = pieces.shape.size();
+            resize_pieces(at + old.n(c));
+            put_back(old, c, at);
           }
         pieces.begin.push_back(pieces.shape.size());
       }
   }
 
 
-  void OverlapMap::cut_on_grid(const Images                    &now,
-                               const Images                    &before,
+  void OverlapMap::cut_on_grid(const GrainImages               &now,
+                               const GrainImages               &before,
                                const std::vector<std::uint8_t> &moved,
                                const OverlapSettings           &settings)
   {
     // cells that grains left or entered, or moved in; empty: all
-    std::vector<std::uint8_t> wanted(before.x.empty() ? 0 : polygons.size(), 0);
-    for (const Images *images : {&before, &now})
-      for (std::size_t k = 0; k < images->x.size() && !wanted.empty(); ++k)
+    std::vector<std::uint8_t> wanted(before.n() == 0 ? 0 : polygons.size(), 0);
+    for (const GrainImages *images : {&before, &now})
+      for (std::size_t k = 0; k < images->n() && !wanted.empty(); ++k)
         if (moved[images->grain[k]])
           {
             const double r = position.radius[images->grain[k]], x = images->x[k], y = images->y[k];
             grid.for_each_cell({{x - r, y - r}}, {{x + r, y + r}}, [&](const unsigned int c) { wanted[c] = 1; });
           }
 
-    geometry::GridCutter             cutter(grid, polygons);
+    geometry::GridCutter             cutter(grid, polygons, settings.shape_of_discs());
     std::vector<geometry::GridPiece> found; // in the order of the grains
     std::vector<unsigned int>        grain_found;
     found.reserve(1.1 * pieces.shape.size());
     grain_found.reserve(1.1 * pieces.shape.size());
-    for (std::size_t k = 0; k < now.x.size(); ++k)
+    for (std::size_t k = 0; k < now.n(); ++k)
       {
         cutter.cut({{{now.x[k], now.y[k]}}, position.radius[now.grain[k]]}, wanted, found);
         grain_found.resize(found.size(), now.grain[k]);
       }
 
     // in the order of the cells
-    PieceStore old;
-    if (!wanted.empty())
-      old = {std::move(pieces.begin), std::move(pieces.shape), std::move(grain_of_piece), std::move(raw_area)};
+    const PieceStore old = wanted.empty() ? PieceStore() : take_pieces();
     pieces.begin.assign(polygons.size() + 1, 0);
     for (const auto &piece : found)
       ++pieces.begin[piece.cell + 1];
     for (unsigned int c = 0; c < polygons.size(); ++c)
-      pieces.begin[c + 1] += pieces.begin[c] + (wanted.empty() || wanted[c] ? 0 : old.begin[c + 1] - old.begin[c]);
-    pieces.shape.resize(pieces.begin.back());
-    grain_of_piece.resize(pieces.begin.back());
-    raw_area.resize(pieces.begin.back());
-    arm_of_piece.clear();
+      pieces.begin[c + 1] += pieces.begin[c] + (wanted.empty() || wanted[c] ? 0 : old.n(c));
+    resize_pieces(pieces.begin.back());
     std::vector<unsigned int> next(pieces.begin.begin(), pieces.begin.end() - 1);
     for (std::size_t i = 0; i < found.size(); ++i)
       {
@@ -343,19 +232,48 @@ namespace alluvium::coupling
         const double       product = settings.rule == OverlapSettings::Rule::moments ? piece.product : xi * eta;
         auto              &s       = pieces.shape[k];
         s.phi                      = {{1. - xi - eta + product, xi - product, eta - product, product}};
-        s.full                     = piece.full;
         grain_of_piece[k]          = grain_found[i];
         raw_area[k]                = piece.area;
       }
     if (!wanted.empty())
       for (unsigned int c = 0; c < polygons.size(); ++c)
         if (!wanted[c])
-          {
-            const auto from = old.begin[c], to = old.begin[c + 1], at = pieces.begin[c];
-            std::copy(old.shape.begin() + from, old.shape.begin() + to, pieces.shape.begin() + at);
-            std::copy(old.grain.begin() + from, old.grain.begin() + to, grain_of_piece.begin() + at);
-            std::copy(old.raw_area.begin() + from, old.raw_area.begin() + to, raw_area.begin() + at);
-          }
+          put_back(old, c, pieces.begin[c]);
+  }
+
+
+  OverlapMap::PieceStore OverlapMap::take_pieces()
+  {
+    PieceStore old{std::move(pieces.begin),
+                   std::move(pieces.shape),
+                   std::move(grain_of_piece),
+                   std::move(raw_area),
+                   std::move(arm_of_piece)};
+    pieces.begin.clear();
+    resize_pieces(0);
+    return old;
+  }
+
+
+  void OverlapMap::resize_pieces(const std::size_t n)
+  {
+    pieces.shape.resize(n);
+    grain_of_piece.resize(n);
+    raw_area.resize(n);
+    arm_of_piece.resize(cut_with.keep_arms ? n : 0);
+  }
+
+
+  void OverlapMap::put_back(const PieceStore &old, const unsigned int cell, const std::size_t at)
+  {
+    const auto copy = [&](const auto &from, auto &to) {
+      std::copy(from.begin() + old.begin[cell], from.begin() + old.begin[cell + 1], to.begin() + at);
+    };
+    copy(old.shape, pieces.shape);
+    copy(old.grain, grain_of_piece);
+    copy(old.raw_area, raw_area);
+    if (cut_with.keep_arms)
+      copy(old.arm, arm_of_piece);
   }
 
 
@@ -413,7 +331,6 @@ namespace alluvium::coupling
         const double product = xi * eta + second;
         s.phi                = {{1. - xi - eta + product, xi - product, eta - product, product}};
       }
-    s.full = settings.shape_of_discs() == OverlapSettings::Shape::even && o.area == polygons[cell].area;
     pieces.shape.push_back(s);
     grain_of_piece.push_back(grain);
     raw_area.push_back(o.area);

@@ -220,6 +220,9 @@ namespace alluvium::run
             " contact sub-steps were accepted above the tolerance; see Contacts in the parameters.");
     warn_of("linear solves above the tolerance",
             " linear solves of the fluid stopped above the tolerance, at a relative residual below 1e-5.");
+    warn_of("steps with cells too uneven to be cut by lines",
+            " steps had cells whose sides lie on too many different lines: grains were cut cell by cell, which takes "
+            "two to four times as long.");
     if (model.has_fluid)
       warn_of_drag_range();
     summary->write();

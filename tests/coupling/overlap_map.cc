@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <random>
 
 namespace
@@ -9,11 +10,13 @@ namespace
   using namespace bed;
 
   /** The pieces of @p grains, cut at once. */
-  coupling::OverlapMap cut_at_once(const fluid::FluidSpace<2> &space, const grains::GrainArrays &grains)
+  coupling::OverlapMap cut_at_once(const fluid::FluidSpace<2>      &space,
+                                   const grains::GrainArrays       &grains,
+                                   const coupling::OverlapSettings &settings)
   {
     coupling::OverlapMap map(space);
     map.reinit();
-    map.cut(grains, {});
+    map.cut(grains, settings);
     return map;
   }
 
@@ -26,10 +29,16 @@ namespace
         EXPECT_EQ(a.terms().shape[k].area, b.terms().shape[k].area);
         EXPECT_EQ(a.terms().shape[k].phi, b.terms().shape[k].phi);
       }
+    ASSERT_EQ(a.arms().size(), b.arms().size());
+    for (std::size_t k = 0; k < a.arms().size(); ++k)
+      {
+        EXPECT_EQ(a.arms()[k].arm, b.arms()[k].arm);
+        EXPECT_EQ(a.arms()[k].moments, b.arms()[k].moments);
+      }
   }
 
   /** Some grains move a little, far, or over a seam; the rest keeps its pieces. */
-  void keeps_what_stands(const bool periodic)
+  void keeps_what_stands(const bool periodic, const coupling::OverlapSettings &rule)
   {
     Bed      bed = random_bed(1, 20., 10.);
     Settings settings;
@@ -37,8 +46,8 @@ namespace
     Channel              channel(bed.width, bed.height, bed.d, settings, 0.);
     coupling::OverlapMap map(channel.space);
     map.reinit();
-    EXPECT_TRUE(map.cut(bed.grains, {}));
-    EXPECT_FALSE(map.cut(bed.grains, {}));
+    EXPECT_TRUE(map.cut(bed.grains, rule));
+    EXPECT_FALSE(map.cut(bed.grains, rule));
 
     std::mt19937                           random(7);
     std::uniform_real_distribution<double> uniform(0., 1.);
@@ -51,24 +60,27 @@ namespace
             g.x[i]       = round == 2 && periodic ? 0.01 * bed.width : bed.width * uniform(random);
             g.y[i] += 0.1 * bed.d * (uniform(random) - 0.5);
           }
-        EXPECT_TRUE(map.cut(g, {}));
-        expect_same(map, cut_at_once(channel.space, g));
+        EXPECT_TRUE(map.cut(g, rule));
+        expect_same(map, cut_at_once(channel.space, g, rule));
       }
 
     // less than the tolerance is not seen, its sum is
-    const coupling::OverlapSettings tolerant{2., coupling::OverlapSettings::Rule::moments, 1e-3};
+    auto tolerant      = rule;
+    tolerant.tolerance = 1e-3;
     g.x[3] += 0.8e-3 * 2. * g.radius[3];
     EXPECT_FALSE(map.cut(g, tolerant));
     g.x[3] += 0.8e-3 * 2. * g.radius[3];
     EXPECT_TRUE(map.cut(g, tolerant));
-    expect_same(map, cut_at_once(channel.space, g));
+    expect_same(map, cut_at_once(channel.space, g, rule));
 
     // other discs are other pieces
-    coupling::OverlapSettings other{3., coupling::OverlapSettings::Rule::moments, 1e-3};
-    const std::size_t         n = map.grain().size();
+    auto              other = tolerant;
+    const std::size_t n     = map.grain().size();
+    other.filter_radius     = 3.;
     EXPECT_TRUE(map.cut(g, other));
     EXPECT_GT(map.grain().size(), n);
-    other.shape = coupling::OverlapSettings::Shape::smooth;
+    using Shape = coupling::OverlapSettings::Shape;
+    other.shape = rule.shape == Shape::even ? Shape::smooth : Shape::even;
     EXPECT_TRUE(map.cut(g, other));
     EXPECT_FALSE(map.cut(g, other));
   }
@@ -151,12 +163,62 @@ namespace
 
   TEST(OverlapMap, KeepsThePiecesOfGrainsThatStand)
   {
-    keeps_what_stands(false);
+    for (const bool periodic : {false, true})
+      for (const bool arms : {false, true}) // with them cells are cut one by one
+        for (const bool smooth : {false, true})
+          {
+            coupling::OverlapSettings rule;
+            rule.keep_arms = arms;
+            rule.shape     = smooth ? coupling::OverlapSettings::Shape::smooth : coupling::OverlapSettings::Shape::even;
+            keeps_what_stands(periodic, rule);
+          }
   }
 
-  TEST(OverlapMap, KeepsThePiecesOfGrainsThatStandBesideSeams)
+  // By lines or cell by cell: beside mirrors and seams, and where nodes hang.
+  TEST(OverlapMap, BothWaysOfCuttingAgree)
   {
-    keeps_what_stands(true);
+    using Shape = coupling::OverlapSettings::Shape;
+    for (const std::string mesh : {"uniform", "hanging nodes", "periodic"})
+      for (const double h : {4., 1., 0.25})
+        for (const Shape shape : {Shape::even, Shape::smooth})
+          {
+            const Bed bed = random_bed(1, 16., 12.);
+            Settings  settings;
+            settings.h_over_d = h;
+            settings.graded   = mesh == "hanging nodes";
+            settings.periodic = mesh == "periodic";
+            Channel channel(bed.width, bed.height, h * bed.d, settings, 0.);
+            auto    rule          = channel.coupling.settings;
+            rule.shape            = shape;
+            const auto by_lines   = cut_at_once(channel.space, bed.grains, rule);
+            rule.keep_arms        = true;
+            const auto by_cells   = cut_at_once(channel.space, bed.grains, rule);
+            const auto moments_of = [&](const coupling::OverlapMap &map, const unsigned int cell) {
+              std::map<unsigned int, std::array<double, 5>> sums; // by grain: area, and area times phi
+              for (unsigned int k = map.terms().begin[cell]; k < map.terms().begin[cell + 1]; ++k)
+                {
+                  const auto &s = map.terms().shape[k];
+                  const auto  g = map.grain()[k];
+                  const auto  V = M_PI * bed.grains.fluid_radius[g] * bed.grains.fluid_radius[g];
+                  sums[g][0] += s.area / V;
+                  for (unsigned int v = 0; v < 4; ++v)
+                    sums[g][v + 1] += s.area / V * s.phi[v];
+                }
+              return sums;
+            };
+            double worst = 0.;
+            for (unsigned int c = 0; c < channel.space.cells().size(); ++c)
+              {
+                auto a = moments_of(by_lines, c), b = moments_of(by_cells, c);
+                for (const auto &[g, sums] : a)
+                  b[g]; // slivers may be in one and not in the other
+                for (const auto &[g, sums] : b)
+                  for (unsigned int i = 0; i < 5; ++i)
+                    worst = std::max(worst, std::abs(sums[i] - a[g][i]));
+              }
+            EXPECT_GT(by_lines.terms().n_pieces(), bed.grains.n());
+            EXPECT_LT(worst, 1e-12) << mesh << ", h/d " << h;
+          }
   }
 
   // for comparison: all of a grain in the cell of its centre, shared where the centre is on a face

@@ -2,8 +2,7 @@
 
 #include <alluvium/fluid/fluid_space.h>
 #include <alluvium/fluid/interphase.h>
-#include <alluvium/geometry/disc_polygon_overlap.h>
-#include <alluvium/geometry/rectangle_grid.h>
+#include <alluvium/geometry/grid_cutter.h>
 #include <alluvium/grains/grain_arrays.h>
 
 namespace alluvium::coupling
@@ -17,12 +16,9 @@ namespace alluvium::coupling
       moments,  // with second moments: exact for Q1 on parallelograms
       centre    // all of a grain evenly in the cell that has its centre, whatever the filter: jumps from cell to cell
     };
-    /** How a grain is spread over the filter's disc. */
-    enum class Shape
-    {
-      even,
-      smooth // as 2 (1 - q^2/R^2) of the distance q from the centre: nothing jumps at the edge
-    };
+    /** How a grain is spread over the filter's disc: `even`, or `smooth`, as 2 (1 - q^2/R^2) of the distance q from
+     * the centre, so that nothing jumps at the edge. */
+    using Shape          = geometry::DiscWeight;
     double filter_radius = 2.; // in contact diameters; 0: the grain's own fluid radius, over which it is always even
     Rule   rule          = Rule::moments;
     /** A grain that has moved by less than this [contact diameters] since it was cut is not cut again. */
@@ -33,6 +29,8 @@ namespace alluvium::coupling
     /** The shape that the discs have. */
     Shape shape_of_discs() const { return filter_radius > 0. ? shape : Shape::even; }
   };
+
+  struct GrainImages;
 
   /** Where a piece is in its grain, and how far it stretches. */
   struct PieceArm
@@ -80,24 +78,31 @@ namespace alluvium::coupling
      */
     double void_fraction(fluid::Vector &eps) const;
 
+    /** Does some rank cut rectangles cell by cell, since their sides lie on too many lines for their number? */
+    bool is_too_uneven() const { return too_uneven; }
+
     /** Sum a per-grain array over all ranks, with the same bits on all of them. */
     void sum_over_ranks(std::vector<double> &per_grain) const;
 
   private:
-    struct Images;
+    /** Pieces that were, by cell. */
+    struct PieceStore;
 
     /** Replace the pieces by those of @p now: in all cells, or in those that grains near them have moved. */
-    void cut_on_grid(const Images                    &now,
-                     const Images                    &before,
+    void cut_on_grid(const GrainImages               &now,
+                     const GrainImages               &before,
                      const std::vector<std::uint8_t> &moved,
                      const OverlapSettings           &settings);
     /** The same, cell by cell and for cells of any shape. */
-    void cut_cells(const Images                    &now,
-                   const Images                    &before,
+    void cut_cells(const GrainImages               &now,
+                   const GrainImages               &before,
                    const std::vector<std::uint8_t> &moved,
                    const OverlapSettings           &settings);
-    /** Find the sides of the domain's bounding box along which its boundary runs from end to end. */
-    void find_mirrors();
+    /** The pieces, of which none are left here. */
+    PieceStore take_pieces();
+    void       resize_pieces(const std::size_t n);
+    /** Copy a cell's pieces to index @p at and after. */
+    void put_back(const PieceStore &old, const unsigned int cell, const std::size_t at);
     /** Bring @p position up to date; which grains moved. */
     std::vector<std::uint8_t> find_moved(const grains::GrainArrays &grains, const OverlapSettings &settings);
     void                      add_piece(const unsigned int       cell,
@@ -107,8 +112,9 @@ namespace alluvium::coupling
 
     const fluid::FluidSpace<dim>          *space;
     std::vector<geometry::PreparedPolygon> polygons;
-    geometry::RectangleGrid                grid;    // of the same; empty where they are no rectangles
-    std::array<std::vector<double>, dim>   mirrors; // [direction]: where the straight sides are [m]
+    geometry::RectangleGrid                grid; // of the same; empty where they are no rectangles
+    bool                                   too_uneven = false;
+    std::array<std::vector<double>, dim>   mirrors; // straight_sides() of the domain
     fluid::InterphaseTerms<dim>            pieces;
     std::vector<unsigned int>              grain_of_piece;
     std::vector<PieceArm>                  arm_of_piece;

@@ -17,9 +17,8 @@ namespace alluvium::fluid
   template <int dim>
   struct PieceShape
   {
-    double                             area;         // [m^2], weights included
-    std::array<double, max_nodes<dim>> phi;          // mean of each nodal shape function over the piece
-    bool                               full = false; // the piece is the whole cell: all of a cell's have the same phi
+    double                             area; // [m^2], weights included
+    std::array<double, max_nodes<dim>> phi;  // mean of each nodal shape function over the piece
   };
 
   /**

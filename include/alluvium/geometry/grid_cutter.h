@@ -11,23 +11,29 @@ namespace alluvium::geometry
   struct GridPiece
   {
     unsigned cell;
-    bool     full;             // all of the cell
-    double   area;             // [m^2]
+    double   area;             // weighted [m^2]
     double   xi, eta, product; // means of xi, eta, xi eta over the piece; all four bilinear shape functions are >= 0
+  };
+
+  /** How the mass of a disc is spread over it, 1 in the mean: as for overlap(), or as for smooth_overlap(). */
+  enum class DiscWeight
+  {
+    even,
+    smooth
   };
 
   /**
    * Cuts discs with the cells of a RectangleGrid. With Q(x, y) the moments of the disc's part left of x and below y, a
    * piece is the alternating sum of Q over its corners, and Q is a polynomial in the coordinates, their chords' halves
-   * and arc sines: square roots and arc sines are found once a line. Exact to 1e-15 of the matching power of the radius
-   * (overlap(): of the smaller one of radius and cell); pieces so small that their means would lose digits are
-   * overlap()'s.
+   * and arc sines, for either weight: square roots and arc sines are found once a line. Exact to 1e-15 of the matching
+   * power of the radius, as smooth_overlap() (overlap(): of the smaller one of radius and cell); even pieces so small
+   * that their means would lose digits are overlap()'s, smooth ones below 1e-13 R^2 are dropped as smooth_overlap()'s.
    */
   class GridCutter
   {
   public:
     /** Both must outlive this, @p polygons those that the grid is made of. */
-    GridCutter(const RectangleGrid &grid, const std::vector<PreparedPolygon> &polygons);
+    GridCutter(const RectangleGrid &grid, const std::vector<PreparedPolygon> &polygons, const DiscWeight weight);
 
     /** Append the pieces of @p disc in the cells that are @p wanted (empty: in all of them). */
     void cut(const Disc &disc, const std::vector<std::uint8_t> &wanted, std::vector<GridPiece> &pieces);
@@ -38,14 +44,19 @@ namespace alluvium::geometry
     {
       unsigned user = 0;  // number of the disc that the rest is of
       double   t    = 0.; // no further out than the circle
-      double   g    = 0.; // 1/2 (t s + asin t), s = sqrt(1 - t^2)
-      double   cube = 0.; // 1/3 s^3
+      // with s = sqrt(1 - t^2), smooth weight in brackets:
+      double zeroth = 0.; // 1/2 (t s + asin t)  [+ 1/3 t s^3]
+      double first  = 0.; // 1/3 s^3             [4/15 s^5]
     };
 
     const Line &find(const unsigned direction, const int index, const Disc &disc);
 
+    template <DiscWeight weight>
+    void cut_with(const Disc &disc, const std::vector<std::uint8_t> &wanted, std::vector<GridPiece> &pieces);
+
     const RectangleGrid                *grid;
     const std::vector<PreparedPolygon> *polygons;
+    DiscWeight                          weight;
     std::array<std::vector<Line>, 2>    lines;
     unsigned                            n_discs = 0;
   };

@@ -23,6 +23,8 @@ namespace alluvium::geometry
     explicit RectangleGrid(const std::vector<PreparedPolygon> &polygons);
 
     bool empty() const { return cells.empty(); }
+    /** Empty because of too many gaps? */
+    bool too_uneven() const { return empty() && lines[0].size() > 1; }
 
     /** Its sides lie on lines [direction][first, last]. */
     struct Cell
