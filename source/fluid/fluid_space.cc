@@ -64,14 +64,10 @@ namespace alluvium::fluid
   void FluidSpace<dim>::reinit(const BoundaryConditions<dim> &boundary_conditions)
   {
     dofs.distribute_dofs(*system_fe);
-    DoFRenumbering::Cuthill_McKee(dofs);
-    std::vector<unsigned int> block(dim + 1, 0);
-    block[dim] = 1;
-    DoFRenumbering::component_wise(dofs, block);
     nodal_dofs.distribute_dofs(*scalar_fe);
+    number_by_nodes();
 
-    const auto n_per_block = DoFTools::count_dofs_per_fe_block(dofs, block);
-    const auto n_u = n_per_block[0], n_p = n_per_block[1];
+    const auto n_p = nodal_dofs.n_dofs(), n_u = dim * n_p;
     DoFTools::extract_locally_relevant_dofs(dofs, relevant_all);
     owned_blocks    = {dofs.locally_owned_dofs().get_view(0, n_u), dofs.locally_owned_dofs().get_view(n_u, n_u + n_p)};
     relevant_blocks = {relevant_all.get_view(0, n_u), relevant_all.get_view(n_u, n_u + n_p)};
@@ -98,6 +94,29 @@ namespace alluvium::fluid
 
     make_constraints(boundary_conditions);
     cache_cells();
+  }
+
+
+  template <int dim>
+  void FluidSpace<dim>::number_by_nodes()
+  {
+    // the bandwidth of the nodes is that of the unknowns, and found in a fraction of the time
+    DoFRenumbering::Cuthill_McKee(nodal_dofs);
+    const IndexSet &owned = dofs.locally_owned_dofs(), &owned_nodes = nodal_dofs.locally_owned_dofs();
+    std::vector<types::global_dof_index> number(owned.n_elements());
+    std::vector<types::global_dof_index> cell_dofs(system_fe->n_dofs_per_cell()), cell_nodes(n_nodes);
+    for (const auto &cell : dofs.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          cell->get_dof_indices(cell_dofs);
+          nodal_iterator(cell, nodal_dofs)->get_dof_indices(cell_nodes);
+          for (unsigned int v = 0; v < n_nodes; ++v)
+            if (owned_nodes.is_element(cell_nodes[v]))
+              for (unsigned int c = 0; c <= dim; ++c)
+                number[owned.index_within_set(cell_dofs[system_fe->component_to_system_index(c, v)])] =
+                  c < dim ? dim * cell_nodes[v] + c : dim * nodal_dofs.n_dofs() + cell_nodes[v];
+        }
+    dofs.renumber_dofs(number);
   }
 
 

@@ -41,28 +41,33 @@ namespace alluvium::fluid
       for (unsigned int b = 0; b < 2; ++b)
         rows[a][b] = rows_of(matrix.block(a, b).trilinos_matrix());
 
-    std::vector<std::uint32_t> of_cell(n * n);
+    // a cell's unknowns among a block's local rows and columns
+    std::vector<std::array<int, 2>> row(n), column(n); // [unknown][block of columns], [unknown][block of rows]
+    std::vector<std::uint32_t>      of_cell(n * n);
     for (std::size_t i = 0; i < space.cells().size(); ++i)
       {
         const CellData<dim> &cell = space.cells()[i];
         bool                 good = !cell.constrained;
         for (unsigned int r = 0; r < n && good; ++r)
+          {
+            const unsigned int a     = r % (dim + 1) == dim;
+            const auto         index = static_cast<int>(cell.dofs[r] - a * first_pressure);
+            for (unsigned int b = 0; b < 2; ++b)
+              {
+                row[r][b]    = matrix.block(a, b).trilinos_matrix().LRID(index);
+                column[r][b] = matrix.block(b, a).trilinos_matrix().LCID(index);
+                good         = good && row[r][b] >= 0 && column[r][b] >= 0;
+              }
+          }
+        for (unsigned int r = 0; r < n && good; ++r)
           for (unsigned int c = 0; c < n && good; ++c)
             {
               const unsigned int a = r % (dim + 1) == dim, b = c % (dim + 1) == dim;
-              const auto        &block  = matrix.block(a, b).trilinos_matrix();
-              const int          row    = block.LRID(static_cast<int>(cell.dofs[r] - a * first_pressure));
-              const int          column = block.LCID(static_cast<int>(cell.dofs[c] - b * first_pressure));
-              if (row < 0 || column < 0)
-                {
-                  good = false;
-                  break;
-                }
-              const Rows &in    = rows[a][b];
-              const int  *first = in.column + in.begin[row], *last = in.column + in.begin[row + 1];
-              const int  *found  = std::find(first, last, column);
-              good               = found != last;
-              of_cell[r * n + c] = static_cast<std::uint32_t>(found - in.column);
+              const Rows        &in    = rows[a][b];
+              const int         *first = in.column + in.begin[row[r][b]], *last = in.column + in.begin[row[r][b] + 1];
+              const int         *found = std::find(first, last, column[c][a]);
+              good                     = found != last;
+              of_cell[r * n + c]       = static_cast<std::uint32_t>(found - in.column);
             }
         if (good)
           {

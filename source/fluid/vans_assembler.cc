@@ -6,6 +6,7 @@
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/lac/block_sparsity_pattern.h>
 #include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/sparsity_tools.h>
 
 namespace alluvium::fluid
 {
@@ -56,15 +57,15 @@ namespace alluvium::fluid
   void VansAssembler<dim>::reinit()
   {
     system_matrix.clear();
-    TrilinosWrappers::BlockSparsityPattern pattern(
-      space->owned(), space->owned(), space->relevant(), space->communicator());
+    BlockDynamicSparsityPattern pattern(space->relevant());
     DoFTools::make_sparsity_pattern(space->dof_handler(),
                                     pattern,
                                     space->constraints(),
                                     false,
                                     Utilities::MPI::this_mpi_process(space->communicator()));
-    pattern.compress();
-    system_matrix.reinit(pattern);
+    SparsityTools::distribute_sparsity_pattern(
+      pattern, space->dof_handler().locally_owned_dofs(), space->communicator(), space->relevant_dofs());
+    system_matrix.reinit(space->owned(), pattern, space->communicator());
     system_matrix.compress(VectorOperation::insert);
     scatter.reinit(*space, system_matrix);
   }

@@ -53,10 +53,10 @@ namespace alluvium::mesh
               const dealii::Point<2> point(box.lower[0] + a * (box.upper[0] - box.lower[0]),
                                            box.lower[1] + b * (box.upper[1] - box.lower[1]));
               const double           size = function->value(point);
-              check_user(size > 0.,
-                         "Mesh refinement/Criteria: function/Cell size: '" + text + "' is " + std::to_string(size) +
-                           " at x = " + std::to_string(point[0]) + ", y = " + std::to_string(point[1]) +
-                           "; sizes must be positive.");
+              if (!(size > 0.)) // the message is dear, and this is asked for every cell
+                throw UserError("Mesh refinement/Criteria: function/Cell size: '" + text + "' is " +
+                                std::to_string(size) + " at x = " + std::to_string(point[0]) +
+                                ", y = " + std::to_string(point[1]) + "; sizes must be positive.");
               result = std::min(result, size * context.grain_diameter);
             }
         return result;

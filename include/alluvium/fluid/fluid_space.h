@@ -151,6 +151,8 @@ namespace alluvium::fluid
                                  const dealii::Tensor<1, dim>  &hydrostatic_gradient,
                                  const double                   datum,
                                  const Action                  &action) const;
+    /** Renumber both handlers: nodes near each other, velocities as their nodes, all pressures after them. */
+    void number_by_nodes();
     void make_periodic(const dealii::DoFHandler<dim> &handler, dealii::AffineConstraints<double> &constraints) const;
     void make_constraints(const BoundaryConditions<dim> &boundary_conditions);
     void cache_cells();
