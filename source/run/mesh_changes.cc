@@ -1,3 +1,4 @@
+#include <alluvium/coupling/flow_totals.h>
 #include <alluvium/run/mesh_changes.h>
 #include <alluvium/run/model.h>
 
@@ -34,8 +35,20 @@ namespace alluvium::run
   }
 
 
+  namespace
+  {
+    /** The totals of the flow, with the void fraction of the grains as they are now. */
+    coupling::FlowTotals totals_now(Model &m)
+    {
+      m.coupling.update_void_fraction(m.grains);
+      return coupling::flow_totals(m.coupling, m.space, m.solver, m.boundary_conditions, m.grains);
+    }
+  } // namespace
+
+
   bool adapt_mesh(Model &m)
   {
+    observers::MeshChange  change;
     const auto             timer = m.timers.scope("mesh adaptation");
     fluid::BlockVector     field, before;
     const mesh::FluidState fluid_state{m.space, m.solver.solution(), m.coupling.void_fraction()};
@@ -46,6 +59,11 @@ namespace alluvium::run
       *m.triangulation,
       context,
       [&] {
+        if (m.watches_mesh_changes && change.n_cells_before == 0)
+          {
+            change.before         = totals_now(m);
+            change.n_cells_before = m.triangulation->n_global_active_cells();
+          }
         m.transfer->prepare({&m.solver.solution(), &m.solver.old()});
       },
       [&] {
@@ -60,8 +78,18 @@ namespace alluvium::run
       {
         m.solver.set_solution(field);
         m.boundary_conditions.set_time(m.time);
-        m.counts["rebalanced flows"] +=
-          m.coupling.rebalance(m.boundary_conditions, m.grains, m.time_step, before, report.share);
+        if (m.watches_mesh_changes)
+          change.interpolated = totals_now(m);
+        change.rebalanced = m.coupling.rebalance(m.boundary_conditions, m.grains, m.time_step, before, report.share);
+        m.counts["rebalanced flows"] += change.rebalanced;
+        if (m.watches_mesh_changes)
+          {
+            change.after   = change.rebalanced ? totals_now(m) : change.interpolated;
+            change.time    = m.time;
+            change.n_cells = report.n_cells;
+            change.share   = report.share;
+            m.mesh_change  = change;
+          }
       }
     return report.changed;
   }

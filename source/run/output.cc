@@ -60,7 +60,10 @@ namespace alluvium::run
     observing.clear();
     for (observers::Observer *observer : choice.all())
       if (observer->applies(snapshot()))
-        observing.push_back(observer);
+        {
+          observing.push_back(observer);
+          model.watches_mesh_changes = model.watches_mesh_changes || observer->watches_mesh_changes();
+        }
   }
 
 
@@ -127,7 +130,8 @@ namespace alluvium::run
             fluid_view.get(),
             model.grains_move ? &model.contacts : nullptr,
             output_folder.path(),
-            model.communicator};
+            model.communicator,
+            model.mesh_change ? &*model.mesh_change : nullptr};
   }
 
 

@@ -3,6 +3,7 @@
 #include <alluvium/coupling/coupling.h>
 #include <alluvium/grains/contact_stepper.h>
 #include <alluvium/mesh/bed_faces.h>
+#include <alluvium/observers/mesh_change.h>
 #include <alluvium/observers/statistics.h>
 #include <alluvium/observers/summary.h>
 #include <alluvium/utilities/plugin.h>
@@ -38,6 +39,7 @@ namespace alluvium::observers
     const grains::ContactStepper *stepper;     // null where grains do not move
     std::string                   folder;      // where output goes
     MPI_Comm                      communicator;
+    const MeshChange             *mesh_change; // the latest, if watches_mesh_changes(); null before the first
   };
 
   /**
@@ -54,6 +56,9 @@ namespace alluvium::observers
     virtual bool applies(const Snapshot &) const { return true; }
 
     virtual void add_columns(const Snapshot &, Statistics &) {}
+
+    /** Does it look at mesh changes? Measuring them costs a little, and is done only for those who do. */
+    virtual bool watches_mesh_changes() const { return false; }
 
     /** Called after every step, and once before the first; collective. */
     virtual void observe(const Snapshot &) {}

@@ -10,11 +10,13 @@
 #include <alluvium/mesh/bed_faces.h>
 #include <alluvium/mesh/domain.h>
 #include <alluvium/mesh/field_transfer.h>
+#include <alluvium/observers/mesh_change.h>
 #include <alluvium/scene/grain_setup.h>
 #include <alluvium/utilities/timers.h>
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -72,6 +74,9 @@ namespace alluvium::run
     double                        time    = 0.; // [s]
     unsigned int                  n_steps = 0;
     std::map<std::string, double> counts; // steps, sweeps, iterations ...
+
+    bool                                 watches_mesh_changes = false; // does an observer want to know of them?
+    std::optional<observers::MeshChange> mesh_change;                  // the latest, if so
 
     /** Gravity and the kind of fluid are written as text: make them what they mean. After parsing. */
     void parse_parameters();
