@@ -109,7 +109,7 @@ namespace alluvium::fluid
       if (cell->is_locally_owned())
         {
           cell->get_dof_indices(cell_dofs);
-          nodal_iterator(cell, nodal_dofs)->get_dof_indices(cell_nodes);
+          nodal_cell(cell)->get_dof_indices(cell_nodes);
           for (unsigned int v = 0; v < n_nodes; ++v)
             if (owned_nodes.is_element(cell_nodes[v]))
               for (unsigned int c = 0; c <= dim; ++c)
