@@ -44,17 +44,20 @@ def anywhere(phi, draw):
     return discs, height / 4, 3 * height / 4
 
 
-def bessel_over_half(x):
-    """2 J_1(x) / x: what an even disc of radius R leaves of a wave of wave number x / R."""
-    n = 100
-    return 1.0 if x == 0 else 2 / x * sum(math.cos(t - x * math.sin(t)) for t in ((i + 0.5) * math.pi / n for i in range(n))) / n
+def left_of_wave(x, smooth):
+    """What a disc of radius R leaves of a wave of wave number x / R: 2 J_1(x) / x if it is even, 8 J_2(x) / x^2 with the smooth filter."""
+    if x == 0:
+        return 1.0
+    n, order = 100, 2 if smooth else 1
+    bessel = sum(math.cos(order * t - x * math.sin(t)) for t in ((i + 0.5) * math.pi / n for i in range(n))) / n
+    return bessel * (8 / x ** 2 if smooth else 2 / x)
 
 
-def from_places(discs, bottom, top, tau_from, tau_to, radius=2.0, cutoff=2.6):
+def from_places(discs, bottom, top, tau_from, tau_to, smooth=False, radius=2.0, cutoff=2.6):
     """
     Speeds of the discs between bottom and top by linear theory, over the drag law's: mean from tau_from to tau_to relaxation times
     after the start from rest, part of it that is slip, root mean squares down and sideways at the end. No mesh: the packing as a sum
-    of waves (shorter ones than 2 pi / cutoff left out; the discs spread over R = radius, mirrored at floor and lid, which slip), each
+    of waves (shorter ones than 2 pi / cutoff left out; the discs spread over R = radius, evenly or smoothly, mirrored at floor and lid, which slip), each
     of which sets the mixture in motion as a body force does in unsteady Stokes flow; a disc moves with the mixture's mean over its own
     R, and slips by the drag law at the mean void fraction there. That motion starts later than the force, by the time in which the
     excess of momentum in the slip is made and by that in which a grain follows.
@@ -76,7 +79,7 @@ def from_places(discs, bottom, top, tau_from, tau_to, radius=2.0, cutoff=2.6):
             k = math.hypot(kx, ky)
             if k > cutoff:
                 break
-            disc = bessel_over_half(k * radius)
+            disc = left_of_wave(k * radius, smooth)
             scale = (2 if n else 1) * (2 if m else 1) * area * disc / (width * height)
             even = scale * sum(e * math.cos(ky * y) for e, (_, y) in zip(phase, discs)) * disc
             force = scale * sum(e * math.sin(ky * y) for e, (_, y) in zip(phase, discs)) * disc if n and m else 0
