@@ -42,8 +42,8 @@ namespace alluvium::coupling
       "Filter shape",
       shape_text,
       "How a grain is spread over the filter's disc: `even`, or `smooth`, as 1 - q^2/R^2 of the "
-      "distance q from its centre, so that nothing jumps where the edge of the disc crosses cells. With "
-      "`Filter radius = grain` always even.",
+      "distance q from its centre, so that nothing jumps where the edge of the disc crosses cells; one of "
+      "`2.5 d` is as wide as an even one of `2 d`. With `Filter radius = grain` always even.",
       Patterns::Selection("even|smooth"));
     prm.add_parameter(
       "Overlap rule",
