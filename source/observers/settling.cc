@@ -36,7 +36,8 @@ namespace alluvium::observers
                                  "settling_speed_over_drag_law",
                                  "settling_speed_rms_m_per_s",
                                  "sideways_speed_rms_m_per_s",
-                                 "settling_packing_fraction"})
+                                 "settling_packing_fraction",
+                                 "settling_force_over_weight"})
           statistics.add_column(name);
       }
 
@@ -45,7 +46,9 @@ namespace alluvium::observers
         const auto         &g    = s.grains;
         const double        size = std::hypot(s.gravity[0], s.gravity[1]);
         grains::GrainArrays inside;
-        double              volume = 0., mean = 0., square = 0., sideways = 0.;
+        double              volume = 0., mean = 0., square = 0., sideways = 0., up = 0., weight = 0.;
+        const auto         &force   = s.fluid->coupling.fluid_force(); // none yet at t = 0
+        const double        density = s.fluid->solver.properties.density;
         for (std::size_t i = 0; i < g.n(); ++i)
           if (g.y[i] > bottom && g.y[i] < top)
             {
@@ -59,6 +62,9 @@ namespace alluvium::observers
               mean += v * down;
               square += v * down * down;
               sideways += v * across * across;
+              weight += (g.mass[i] - density * v) * size;
+              if (!force.empty())
+                up -= (force[i][0] * s.gravity[0] + force[i][1] * s.gravity[1]) / size;
             }
         if (inside.n() == 0)
           return;
@@ -73,6 +79,8 @@ namespace alluvium::observers
         statistics.set("settling_speed_rms_m_per_s", std::sqrt(std::max(0., square / volume - mean * mean)));
         statistics.set("sideways_speed_rms_m_per_s", std::sqrt(sideways / volume));
         statistics.set("settling_packing_fraction", packing);
+        statistics.set("settling_force_over_weight",
+                       weight > 0. ? up / weight : std::numeric_limits<double>::quiet_NaN());
       }
 
     private:
@@ -80,9 +88,9 @@ namespace alluvium::observers
     };
   } // namespace
 
-  ALLUVIUM_REGISTER_OBSERVER(
-    Settling,
-    "settling",
-    "Mean speed at which the grains of a range of heights sink, its fluctuations, and what the "
-    "drag law makes of it in a homogeneous suspension without net flux.")
+  ALLUVIUM_REGISTER_OBSERVER(Settling,
+                             "settling",
+                             "Mean speed at which the grains of a range of heights sink, its fluctuations, the fluid's "
+                             "force on them, and what the "
+                             "drag law makes of it in a homogeneous suspension without net flux.")
 } // namespace alluvium::observers
