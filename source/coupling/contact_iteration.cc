@@ -57,13 +57,11 @@ namespace alluvium::coupling
                                                   const std::array<double, 2> &gravity,
                                                   const double                 haste)
   {
-    const auto timer          = timers.scope("contacts");
-    Answer     answer         = {grains, {}, {}, {}};
-    contacts.settings().haste = haste;
-    answer.report             = contacts.advance(answer.grains, loads, dt, gravity);
-    contacts.settings().haste = 1.;
-    answer.motion             = mean_motion(grains, answer.grains, dt);
-    answer.unseen             = coupling.unseen_force(answer.motion, loads);
+    const auto timer  = timers.scope("contacts");
+    Answer     answer = {grains, {}, {}, {}};
+    answer.report     = contacts.advance(answer.grains, loads, dt, gravity, haste);
+    answer.motion     = mean_motion(grains, answer.grains, dt);
+    answer.unseen     = coupling.unseen_force(answer.motion, loads);
     return answer;
   }
 

@@ -29,7 +29,8 @@ namespace alluvium::grains
     ContactWork                 work;
     Rest                        rest;
 
-    ContactReport advance(GrainArrays &grains, const GrainLoads &loads, double dt, std::array<double, 2> gravity);
+    ContactReport
+    advance(GrainArrays &grains, const GrainLoads &loads, double dt, std::array<double, 2> gravity, double haste);
 
     const Cohesion *acting_cohesion() const
     {
@@ -76,7 +77,8 @@ namespace alluvium::grains
   ContactReport ContactStepper::Implementation::advance(GrainArrays                &grains,
                                                         const GrainLoads           &loads,
                                                         const double                dt,
-                                                        const std::array<double, 2> gravity)
+                                                        const std::array<double, 2> gravity,
+                                                        const double                haste)
   {
     ContactReport     report;
     const std::size_t n     = grains.n();
@@ -118,7 +120,7 @@ namespace alluvium::grains
     grains.fcx.assign(n, 0.);
     grains.fcy.assign(n, 0.);
     work.begin(grains, loads, shares(n));
-    substep.begin({scales, std::move(materials), &solver(), cohesion, dt / steps});
+    substep.begin({scales, std::move(materials), &solver(), cohesion, dt / steps, haste});
     for (unsigned int s = 0; s < steps; ++s)
       substep.advance(report);
     substep.finish(report);
@@ -187,9 +189,10 @@ namespace alluvium::grains
   ContactReport ContactStepper::advance(GrainArrays                &grains,
                                         const GrainLoads           &loads,
                                         const double                dt,
-                                        const std::array<double, 2> gravity)
+                                        const std::array<double, 2> gravity,
+                                        const double                haste)
   {
-    return implementation->advance(grains, loads, dt, gravity);
+    return implementation->advance(grains, loads, dt, gravity, haste);
   }
 
   void ContactStepper::set_communicator(const MPI_Comm communicator)

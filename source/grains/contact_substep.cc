@@ -153,7 +153,7 @@ namespace alluvium::grains
     // in those that are long for a grain's fall.
     const double g     = step.scales.g;
     const double x     = g > 0. ? 0.2 * std::sqrt(step.scales.d_min / g) / margins.h : 1.;
-    const double wider = std::clamp(x, 1., 10.) * std::clamp(2. * x, 0.1, 1.) * (on_the_move ? settings.haste : 1.);
+    const double wider = std::clamp(x, 1., 10.) * std::clamp(2. * x, 0.1, 1.) * (on_the_move ? step.haste : 1.);
     return {wider * settings.residual_tolerance,
             wider * settings.violation_tolerance,
             settings.loose,
@@ -169,7 +169,7 @@ namespace alluvium::grains
     // A bed at rest, or a cold one, is not on the move, however many sweeps it takes.
     const bool on_the_move =
       margins.speeds.mean > settings.moving_speed * problem.impulse_scale / step.scales.mean_mass;
-    report.hasty               = report.hasty || (on_the_move && settings.haste > 1.);
+    report.hasty               = report.hasty || (on_the_move && step.haste > 1.);
     ContactTolerance tolerance = this->tolerance(on_the_move);
     Outcome          outcome;
     ContactSolution &solution = outcome.solution;

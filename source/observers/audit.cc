@@ -84,9 +84,16 @@ namespace alluvium::observers
         summary.set("audit/largest_penetration_over_d", penetration);
         if (received > 0.)
           {
-            summary.set("audit/momentum_not_received_over_impulse",
-                        std::hypot(not_received[0], not_received[1]) / received);
+            constexpr double allowed = 1e-3;
+            const double     share   = std::hypot(not_received[0], not_received[1]) / received;
+            summary.set("audit/momentum_not_received_over_impulse", share);
             summary.set("audit/momentum_not_received_without_regard_to_sign", not_received_gross / received);
+            if (share > allowed)
+              summary.warn(
+                "More than 0.1 % of the momentum that fluid and grains exchanged did not reach the fluid (see "
+                "audit/momentum_not_received_over_impulse): where grains begin to move, contact forces are "
+                "those of the step before. Smaller time steps make it less, and so does Coupling/Time scheme "
+                "= iterated.");
           }
       }
 

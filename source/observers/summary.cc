@@ -94,6 +94,12 @@ namespace alluvium::observers
       list.push_back(text);
   }
 
+  std::vector<std::string> Summary::warnings() const
+  {
+    return content->value("warnings", std::vector<std::string>{});
+  }
+
+
   void Summary::write() const
   {
     if (is_writer)

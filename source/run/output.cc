@@ -232,6 +232,8 @@ namespace alluvium::run
     summary->write();
     if (model.speaks)
       {
+        for (const auto &text : summary->warnings())
+          std::cout << "Warning: " << text << std::endl;
         double total = 0.;
         for (const auto &[name, phase] : phases)
           total += name.find(": ") == std::string::npos ? phase.wall : 0.;
@@ -255,8 +257,6 @@ namespace alluvium::run
       text << (i ? ", " : "") << ids[i];
     text << (n_shown < ids.size() ? ", ..." : "") << '.';
     summary->warn(text.str());
-    if (model.speaks)
-      std::cout << "Warning: " << text.str() << std::endl;
   }
 
 

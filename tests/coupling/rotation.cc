@@ -57,7 +57,8 @@ namespace
     {
       bed::coupling::CouplingState state(grain, touched, map, dt);
       state.gamma.assign(state.n_pieces(), gamma_value);
-      state.old = state.latest        = bed::coupling::evaluate(map, channel.space, field);
+      bed::coupling::evaluate(map, channel.space, field, state.old);
+      state.latest                    = state.old;
       state.latest_gradient           = bed::coupling::velocity_gradients(map, channel.space, field);
       const auto              torques = bed::coupling::grain_torques(state);
       bed::grains::GrainLoads loads;

@@ -32,7 +32,8 @@ namespace
     for (unsigned int i = 0; i < length / step; ++i)
       {
         map.cut(grain, channel.coupling.settings);
-        const auto   at_pieces = bed::coupling::evaluate(map, channel.space, field);
+        std::vector<bed::coupling::PieceField> at_pieces;
+        bed::coupling::evaluate(map, channel.space, field, at_pieces);
         Tensor<1, 2> f;
         for (std::size_t p = 0; p < at_pieces.size(); ++p)
           for (unsigned int c = 0; c < 2; ++c)

@@ -16,13 +16,6 @@ namespace alluvium::coupling
                 const fluid::FluidSpace<2> &space,
                 const fluid::BlockVector   &field,
                 std::vector<PieceField>    &result);
-  inline std::vector<PieceField>
-  evaluate(const OverlapMap &map, const fluid::FluidSpace<2> &space, const fluid::BlockVector &field)
-  {
-    std::vector<PieceField> result;
-    evaluate(map, space, field, result);
-    return result;
-  }
 
   /** Gradient of the fluid velocity at a piece's centroid, [component][direction] [1/s]. */
   using VelocityGradient = std::array<std::array<double, 2>, 2>;

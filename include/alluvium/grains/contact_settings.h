@@ -24,7 +24,6 @@ namespace alluvium::grains
     double       violation_tolerance = 1e-4;
     double       loose               = 100.; // both grow up to this factor ...
     unsigned int patience            = 100;  // ... after so many sweeps, ten times as many unless grains move ...
-    double       haste               = 1.;   // where grains move, both are this much larger; not a parameter
     double       moving_speed        = 0.1;  // ... faster than this, root mean square, times g dt
     unsigned int max_sweeps          = 3000;
     unsigned int max_halvings        = 4;

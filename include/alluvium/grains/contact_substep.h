@@ -28,6 +28,7 @@ namespace alluvium::grains
       const ContactSolver *solver   = nullptr;
       const Cohesion      *cohesion = nullptr; // none
       double               base_h   = 0.;      // length of an unhalved sub-step [s]
+      double               haste    = 1.;      // where grains move, tolerances are this much larger
     };
 
     ContactSubstep(const ContactSettings &settings, ContactWork &work)

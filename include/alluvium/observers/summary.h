@@ -36,7 +36,8 @@ namespace alluvium::observers
     double number(const std::string &path) const;
 
     /** Add to the list "warnings", each text once. */
-    void warn(const std::string &text);
+    void                     warn(const std::string &text);
+    std::vector<std::string> warnings() const;
 
     /** Write the file, atomically; as often as wanted. */
     void write() const;
