@@ -78,7 +78,7 @@ namespace alluvium::coupling
       "filter.");
     scheme_choice.add_parameters(prm,
                                  "Time scheme",
-                                 "semi-implicit per grain",
+                                 "iterated",
                                  "How grains and fluid see each other's velocity within a time step.");
     prm.leave_subsection();
   }

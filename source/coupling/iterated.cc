@@ -61,5 +61,6 @@ namespace alluvium::coupling
     Iterated,
     "iterated",
     "The semi-implicit scheme per grain, repeated with the new contact forces until fluid and grains agree on the "
-    "grains' velocities: for jammed beds whose load jumps, and time steps far above the drag's relaxation time.")
+    "grains' velocities: right from the first step in jammed beds whose load jumps, and where grains begin to move the "
+    "fluid gets the momentum that they got. A bed at rest is not repeated; one that moves costs half as much again.")
 } // namespace alluvium::coupling

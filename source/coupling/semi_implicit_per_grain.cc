@@ -150,5 +150,5 @@ namespace alluvium::coupling
     SemiImplicitPerGrain,
     "semi-implicit per grain",
     "Velocities v* predicted with the new fluid in both equations, one rigid velocity for every grain; "
-    "the grains' own step takes the drag implicitly.")
+    "the grains' own step takes the drag implicitly. Contact forces are those of the last step.")
 } // namespace alluvium::coupling
