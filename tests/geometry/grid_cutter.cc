@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <cstdio>
+#include <optional>
+#include <vector>
 
 #include "meshes.h"
 
@@ -38,6 +40,20 @@ namespace
     return cells;
   }
 
+  /** The piece of @p disc in each of @p n_cells cells; at most one. */
+  std::vector<std::optional<GridPiece>> pieces_of_cells(const Disc &disc, GridCutter &cutter, const std::size_t n_cells)
+  {
+    std::vector<GridPiece> pieces;
+    cutter.cut(disc, {}, pieces);
+    std::vector<std::optional<GridPiece>> of_cell(n_cells);
+    for (const GridPiece &p : pieces)
+      {
+        EXPECT_FALSE(of_cell[p.cell].has_value());
+        of_cell[p.cell] = p;
+      }
+    return of_cell;
+  }
+
   /** Largest differences from overlap() in area and first moments over r^2 and r^2 (r + |x|), in the means of xi, eta
    * and xi eta of pieces above 1e-6 of disc or cell, and in the sum of areas. */
   struct Differences
@@ -51,22 +67,15 @@ namespace
         if (!(std::abs(error) <= worst))
           worst = std::abs(error);
       };
-      std::vector<GridPiece> pieces;
-      cutter.cut(disc, {}, pieces);
-      std::vector<const GridPiece *> of_cell(cells.size());
-      for (const GridPiece &p : pieces)
-        {
-          EXPECT_EQ(of_cell[p.cell], nullptr);
-          of_cell[p.cell] = &p;
-        }
-      const double r   = disc.radius;
+      const auto   of_cell = pieces_of_cells(disc, cutter, cells.size());
+      const double r       = disc.radius;
       double       all = 0., exact = 0.;
       for (unsigned c = 0; c < cells.size(); ++c)
         {
           const Overlap o  = overlap(disc, cells[c]);
           const double  lx = cells[c].upper[0] - cells[c].lower[0], ly = cells[c].upper[1] - cells[c].lower[1];
           const double  xi = (o.centroid[0] - cells[c].lower[0]) / lx, eta = (o.centroid[1] - cells[c].lower[1]) / ly;
-          const auto   *p = of_cell[c];
+          const auto   &p = of_cell[c];
           const double  a = p ? p->area : 0.;
           exact += o.area;
           all += a;
@@ -104,20 +113,13 @@ namespace
 
     void add(const Disc &disc, GridCutter &cutter, const std::vector<PreparedPolygon> &cells, const bool covered)
     {
-      std::vector<GridPiece> pieces;
-      cutter.cut(disc, {}, pieces);
-      std::vector<const GridPiece *> of_cell(cells.size());
-      for (const GridPiece &p : pieces)
-        {
-          EXPECT_EQ(of_cell[p.cell], nullptr);
-          of_cell[p.cell] = &p;
-        }
-      const double r   = disc.radius;
-      double       all = 0.;
+      const auto   of_cell = pieces_of_cells(disc, cutter, cells.size());
+      const double r       = disc.radius;
+      double       all     = 0.;
       for (unsigned c = 0; c < cells.size(); ++c)
         {
           const Overlap         o    = smooth_overlap(disc, cells[c]);
-          const GridPiece      *p    = of_cell[c];
+          const auto           &p    = of_cell[c];
           std::array<double, 4> mine = {{0., 0., 0., 0.}};
           if (p)
             {
