@@ -8,8 +8,8 @@ namespace alluvium::fluid
 
   template <int dim>
   VansSolver<dim>::VansSolver(const FluidSpace<dim> &space)
-    : space(&space)
-    , assembler(space)
+    : assembler(space)
+    , space(&space)
     , current()
   {}
 

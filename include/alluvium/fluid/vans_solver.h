@@ -73,6 +73,11 @@ namespace alluvium::fluid
     void   set_datum(const double value) { pressure_datum = value; }
     double datum() const { return pressure_datum; }
 
+  private:
+    VansAssembler<dim>
+      assembler; // before the linear solver, whose smoothers look at the matrix when they are destroyed
+
+  public:
     FluidProperties        properties;
     dealii::Tensor<1, dim> gravity;
     Discretisation         discretisation;
@@ -85,7 +90,6 @@ namespace alluvium::fluid
     std::array<double, 2> term_scale() const;
 
     const FluidSpace<dim> *space;
-    VansAssembler<dim>     assembler;
     VansProblem<dim>       current;
     BlockVector            iterate, previous, residual, known, increment, product;
     LinearSolverReport     report;
