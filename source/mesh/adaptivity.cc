@@ -24,26 +24,6 @@ namespace alluvium::mesh
       return cell->diameter() / std::sqrt(double(Cell::AccessorType::dimension));
     }
 
-    /** The box around @p cell, widened on all sides by @p margin times its own size. */
-    template <typename Cell>
-    Box box_of(const Cell &cell, const double margin = 0.)
-    {
-      Box box{{{cell->vertex(0)[0], cell->vertex(0)[1]}}, {{cell->vertex(0)[0], cell->vertex(0)[1]}}};
-      for (const unsigned int v : cell->vertex_indices())
-        for (unsigned int d = 0; d < 2; ++d)
-          {
-            box.lower[d] = std::min(box.lower[d], cell->vertex(v)[d]);
-            box.upper[d] = std::max(box.upper[d], cell->vertex(v)[d]);
-          }
-      for (unsigned int d = 0; d < 2; ++d)
-        {
-          const double widen = margin * (box.upper[d] - box.lower[d]);
-          box.lower[d] -= widen;
-          box.upper[d] += widen;
-        }
-      return box;
-    }
-
     // sides of h and wishes of h differ by rounding
     constexpr double tolerance = 1. + 1e-6;
   } // namespace
@@ -111,6 +91,15 @@ namespace alluvium::mesh
     if (context.grain_diameter > 0.)
       result = std::clamp(result, finest * context.grain_diameter, std::max(coarsest, finest) * context.grain_diameter);
     return result;
+  }
+
+
+  template <int dim>
+  bool Adaptivity<dim>::never_refines(const double size, const RefinementContext &context) const
+  {
+    const auto all = criteria.all();
+    return interval == 0 && (!(context.grain_diameter > 0.) || size <= tolerance * coarse_size(context)) &&
+           std::all_of(all.begin(), all.end(), [](const auto *criterion) { return criterion->is_uniform(); });
   }
 
 

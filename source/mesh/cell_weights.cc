@@ -54,8 +54,14 @@ namespace alluvium::mesh
   }
 
 
+  double CellWeights::cost(const double n_cells, const double n_near)
+  {
+    return cell_cost * n_cells + piece_cost * n_near;
+  }
+
+
   unsigned int CellWeights::weight(const Box &box) const
   {
-    return static_cast<unsigned int>(std::min(1e8, cell_cost + piece_cost * n_near(box)));
+    return static_cast<unsigned int>(std::min(1e8, cost(1., n_near(box))));
   }
 } // namespace alluvium::mesh

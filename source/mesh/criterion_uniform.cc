@@ -25,6 +25,8 @@ namespace alluvium::mesh
         return context.grain_diameter > 0. ? size * context.grain_diameter : no_wish;
       }
 
+      bool is_uniform() const override { return true; }
+
     private:
       double size = 2.;
     };

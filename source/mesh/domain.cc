@@ -249,26 +249,8 @@ namespace alluvium::mesh
 
 
   template <int dim>
-  std::unique_ptr<Triangulation<dim>> Domain<dim>::make_triangulation(const double cell_size) const
+  void Domain<dim>::make_rectangle(Triangulation<dim> &triangulation, const double cell_size) const
   {
-    if (triangles)
-      {
-        auto result = std::make_unique<parallel::shared::Triangulation<dim>>(
-          communicator, Triangulation<dim>::none, true, parallel::shared::Triangulation<dim>::partition_custom_signal);
-        auto *raw = result.get();
-        result->signals.create.connect([raw] { partition_by_bisection(*raw); });
-        read_into(*result, mesh_text, mesh_path);
-        check_partition(*result);
-        return result;
-      }
-
-    auto result = std::make_unique<parallel::distributed::Triangulation<dim>>(communicator);
-    if (!is_rectangle())
-      {
-        read_into(*result, mesh_text, mesh_path);
-        return result;
-      }
-
     check_user(cell_size > 0.,
                "Domain: without grains, 'Coarse cell size' must say how large the cells of the mesh are.");
     double                    side = std::numeric_limits<double>::max();
@@ -284,9 +266,35 @@ namespace alluvium::mesh
       }
     for (unsigned int d = 0; d < dim; ++d)
       n[d] = std::max(1., std::round((upper_corner[d] - lower_corner[d]) / side));
-    GridGenerator::subdivided_hyper_rectangle(*result, n, lower_corner, upper_corner, true);
+    GridGenerator::subdivided_hyper_rectangle(triangulation, n, lower_corner, upper_corner, true);
+  }
+
+
+  template <int dim>
+  std::unique_ptr<Triangulation<dim>>
+  Domain<dim>::make_triangulation(const double cell_size, const bool never_refines, const CellWeights &weights) const
+  {
+    const auto box  = periodicity();
+    const auto make = [&](Triangulation<dim> &triangulation) {
+      if (is_rectangle())
+        make_rectangle(triangulation, cell_size);
+      else
+        read_into(triangulation, mesh_text, mesh_path);
+    };
+    if (triangles || (never_refines && is_rectangle() && !box.any()))
+      {
+        using Shared    = parallel::shared::Triangulation<dim>;
+        auto result     = std::make_unique<Shared>(communicator, Shared::none, true, Shared::partition_custom_signal);
+        auto connection = result->signals.create.connect([&] { partition_by_bisection(*result, weights); });
+        make(*result);
+        connection.disconnect(); // it knows the weights, which may go
+        check_partition(*result);
+        return result;
+      }
+
+    auto result = std::make_unique<parallel::distributed::Triangulation<dim>>(communicator);
+    make(*result);
     std::vector<GridTools::PeriodicFacePair<typename Triangulation<dim>::cell_iterator>> pairs;
-    const auto                                                                           box = periodicity();
     for (unsigned int d = 0; d < dim; ++d)
       if (box.length[d] > 0.)
         GridTools::collect_periodic_faces(*result, 2 * d, 2 * d + 1, d, pairs);

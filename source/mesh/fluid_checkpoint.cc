@@ -185,7 +185,7 @@ namespace alluvium::mesh
     std::string manifest;
     on_first_rank(communicator, [&] {
       std::ostringstream text;
-      text << (distributed ? "distributed" : "triangles") << " " << checksum_of(triangulation) << " "
+      text << (distributed ? "distributed" : "replicated") << " " << checksum_of(triangulation) << " "
            << block_fields.size() << " " << nodal_fields.size() << "\n";
       for (const auto &path : mesh_files(folder))
         {
@@ -209,7 +209,7 @@ namespace alluvium::mesh
     manifest >> kind >> checksum >> n_block_fields >> n_nodal_fields;
     check_user(static_cast<bool>(manifest), "'" + file(manifest_name) + "' is not as this program writes it.");
     check_user(triangulation.n_levels() == 1 && checksum == checksum_of(triangulation) &&
-                 kind == (distributed ? "distributed" : "triangles"),
+                 kind == (distributed ? "distributed" : "replicated"),
                "The checkpoint in '" + folder +
                  "' was made with another unrefined mesh: section Domain, the mesh file or the coarsest cell size have "
                  "changed.");

@@ -31,9 +31,10 @@ namespace alluvium::run
 
     void set_up_fluid(Model &m, const double coarse_size, Checkpoint *from)
     {
-      auto mesh = m.domain.make_triangulation(coarse_size);
-      m.adaptivity.check_mesh(*mesh);
       count_cell_weights(m);
+      const bool never_refines = m.adaptivity.never_refines(coarse_size, m.refinement_context());
+      auto       mesh          = m.domain.make_triangulation(coarse_size, never_refines, m.cell_weights);
+      m.adaptivity.check_mesh(*mesh);
       if (from)
         from->load_mesh(*mesh);
       m.adaptivity.balance(*mesh, m.cell_weights);

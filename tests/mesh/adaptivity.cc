@@ -104,6 +104,30 @@ namespace
     EXPECT_NEAR(faces.distance_to_bottom({{0.8, 0.5}}, {{0.9, 0.6}}), 0.5, 1.5 * d);
   }
 
+  TEST(Adaptivity, KnowsWhenAMeshIsNeverRefined)
+  {
+    const auto grains        = make_bed(d, 0., 0.5);
+    const auto context       = context_of(grains);
+    const auto never_refines = [&](const Parameters &parameters, const double size) {
+      ParameterHandler prm;
+      Adaptivity<2>    adaptivity;
+      set_parameters(adaptivity, prm, parameters);
+      return adaptivity.never_refines(size * d, context);
+    };
+    const Parameters uniform = {{"Mesh refinement/Criteria", "uniform"},
+                                {"Mesh refinement/Criteria: uniform/Cell size", "2"},
+                                {"Mesh refinement/Interval", "0"}};
+    EXPECT_TRUE(never_refines(uniform, 2.));
+    EXPECT_TRUE(never_refines(uniform, 1.));
+    EXPECT_FALSE(never_refines(uniform, 2.1)); // refined at the start
+    Parameters other = uniform;
+    other[2].second  = "5"; // the grains' mean diameter stays, but a criterion is asked again
+    EXPECT_FALSE(never_refines(other, 2.));
+    other           = uniform;
+    other[0].second = "uniform, bed faces";
+    EXPECT_FALSE(never_refines(other, 2.));
+  }
+
   TEST(Adaptivity, UniformGivesExactlyTheWantedSize)
   {
     for (const double h : {0.5, 1., 4.})

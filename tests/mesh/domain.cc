@@ -1,5 +1,6 @@
 #include "test_mesh.h"
 
+#include <deal.II/distributed/shared_tria.h>
 #include <deal.II/grid/tria_accessor.h>
 #include <deal.II/grid/tria_iterator.h>
 
@@ -98,6 +99,42 @@ namespace
     domain.initialize(MPI_COMM_WORLD, "");
     const auto box = domain.make_triangulation(1.)->begin()->bounding_box();
     EXPECT_NEAR(box.side_length(0) / box.side_length(1), 1., 0.05);
+  }
+
+  TEST(Domain, RectangleThatIsNeverRefinedHasTheSameCellsAndIsCutAcrossItsBed)
+  {
+    ParameterHandler prm;
+    Domain<2>        domain;
+    set_parameters(domain, prm, {{"Domain/Upper right corner", "1, 2"}});
+    domain.initialize(MPI_COMM_WORLD, "");
+    std::vector<double> x, y; // a bed in the lower half
+    for (unsigned int j = 0; j < 32; ++j)
+      for (unsigned int i = 0; i < 32; ++i)
+        {
+          x.push_back((i + 0.5) / 32.);
+          y.push_back((j + 0.5) / 32.);
+        }
+    mesh::CellWeights weights;
+    weights.count(x, y, 0.1);
+
+    const auto curve    = domain.make_triangulation(1. / 16.),
+               bisected = domain.make_triangulation(1. / 16., true, weights);
+    EXPECT_NE(dynamic_cast<const parallel::shared::Triangulation<2> *>(bisected.get()), nullptr);
+    EXPECT_EQ(curve->n_global_active_cells(), bisected->n_global_active_cells());
+    auto         other   = curve->begin_active();
+    const auto   n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    unsigned int n_owned = 0, n_in_bed = 0;
+    for (const auto &cell : bisected->active_cell_iterators())
+      {
+        EXPECT_LT(cell->center().distance((other++)->center()), 1e-12);
+        if (cell->is_locally_owned())
+          {
+            ++n_owned;
+            n_in_bed += cell->center()[1] < 1.;
+          }
+      }
+    EXPECT_EQ(n_owned * n_ranks, 16u * 32u);
+    EXPECT_EQ(n_in_bed * n_ranks, 16u * 16u);
   }
 
   TEST(Domain, RectangleWallsCloseTheBoxExceptWhereOpen)

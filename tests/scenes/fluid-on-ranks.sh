@@ -10,8 +10,9 @@ common=(--set 'Output/Digits=15' --set 'Time/End time=0.008' --set 'Fluid/Linear
         --set 'Output/Observers=head, motion, support, bed') # flux has an imbalance, all round-off
 
 cp suspension.prm spinning.prm
+(cat bed.prm && echo $'subsection Mesh refinement\n set Criteria = uniform\nend') >uniform.prm # never refined: dealt out otherwise
 
-for scene in bed suspension spinning; do
+for scene in bed uniform suspension spinning; do
   [ $scene = spinning ] && common+=(--set 'Coupling/Rotation=true')
   for ranks in 1 2 4; do
     must_run "$ranks" "$scene.prm" "${common[@]}" --set "Output/Output folder=$scene-$ranks"

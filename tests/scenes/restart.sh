@@ -22,10 +22,11 @@ as_it_comes=(--set 'Contacts/Residual tolerance=1e-5' --set 'Contacts/Largest vi
              --set 'Fluid/Linear solver/Tolerance=1e-8' --set 'Boundary conditions/Pressure=top: 0; bottom: rho*g*H + 1.5*rho*g*L')
 every=(--set 'Output/Interval of checkpoints=0.01')
 
-for kind in bed adaptive triangles dry; do
+for kind in bed adaptive uniform triangles dry; do
   case $kind in
     bed) more= ;;
     adaptive) more=$'subsection Mesh refinement\n set Interval = 4\n subsection Criteria: bed faces\n  set Half width = 1\n end\nend' ;;
+    uniform) more=$'subsection Mesh refinement\n set Criteria = uniform\nend' ;;
     triangles) more=$'subsection Domain\n set Mesh file = data/bed.msh\nend' ;;
     dry) more=$'subsection Fluid\n set Model = none\nend\nset Gravity = 5, -8' ;;
   esac

@@ -44,6 +44,9 @@ namespace alluvium::mesh
      */
     double coarse_size(const RefinementContext &context) const;
 
+    /** Are cells of @p size [m], all of them, what the criteria want in the whole run? Then they are never refined. */
+    bool never_refines(const double size, const RefinementContext &context) const;
+
     /** Is the mesh to be adapted before step number @p step (0, 1, ...)? */
     bool due(unsigned int step) const;
 
@@ -75,8 +78,8 @@ namespace alluvium::mesh
                            const std::function<void()>     &after) const;
 
     /**
-     * Let @p weights, asked at each change, decide how many cells each rank gets; they must outlive the mesh. Triangles
-     * stay where they are.
+     * Let @p weights, asked at each change, decide how many cells each rank gets; they must outlive the mesh. What
+     * is never refined stays where it is.
      */
     static void balance(dealii::Triangulation<dim, dim> &triangulation, const CellWeights &weights);
 

@@ -1,11 +1,30 @@
 #pragma once
 
+#include <alluvium/mesh/cell_weights.h>
+
+#include <deal.II/base/point.h>
 #include <deal.II/distributed/shared_tria.h>
+
+#include <vector>
 
 namespace alluvium::mesh
 {
-  /** Give every rank as many of the active cells, by cutting the longer side of what is to be shared, again and again.
+  /** What bisection knows of a cell. */
+  struct CellToDeal
+  {
+    dealii::Point<2> center; // [m]
+    double           n_near; // grains that are likely to be cut by it
+  };
+
+  /**
+   * Deal out @p cells to @p n_parts parts, by cutting them in two along x or y, again and again: always where the
+   * larger share of the cells and the larger share of the grains near them, which may be the other half's, together
+   * cost least. Ranks wait for one another between cutting grains and solving, so both are to be even, not their sum;
+   * of two cuts about as good, the one across the longer side is taken. Returns the part of each cell; no part is empty
+   * unless there are more of them than cells.
    */
-  template <int dim>
-  void partition_by_bisection(dealii::parallel::shared::Triangulation<dim> &triangulation);
+  std::vector<dealii::types::subdomain_id> bisect(const std::vector<CellToDeal> &cells, unsigned int n_parts);
+
+  /** Deal out the active cells of @p triangulation, and the grains that @p weights counts near them, to all ranks. */
+  void partition_by_bisection(dealii::parallel::shared::Triangulation<2> &triangulation, const CellWeights &weights);
 } // namespace alluvium::mesh

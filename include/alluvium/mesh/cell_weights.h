@@ -20,7 +20,10 @@ namespace alluvium::mesh
     /** Number of discs whose middle is near enough to @p box to reach into it, give or take those at its corners. */
     double n_near(const Box &box) const;
 
-    /** Cost of a cell as large as @p box, 1000 for one without grains. */
+    /** What cells cost that have @p n_near grains near them, counted in each: 1000 for one cell without grains. */
+    static double cost(const double n_cells, const double n_near);
+
+    /** Cost of a cell as large as @p box. */
     unsigned int weight(const Box &box) const;
 
   private:

@@ -2,6 +2,7 @@
 
 #include <alluvium/grains/periodicity.h>
 #include <alluvium/grains/wall.h>
+#include <alluvium/mesh/cell_weights.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/types.h>
@@ -60,11 +61,13 @@ namespace alluvium::mesh
 
     /**
      * The unrefined mesh, distributed over all ranks. A rectangle has cells as square as possible with sides of at most
-     * @p cell_size [m] (a hair more where rounding makes them square). Cells of a file are as they are. Rectangles and
-     * quadrilaterals are a parallel::distributed::Triangulation; triangles are a parallel::shared::Triangulation with
-     * artificial cells, cut into as many compact parts as there are ranks by recursive bisection of the cells' centres.
+     * @p cell_size [m] (a hair more where rounding makes them square). Cells of a file are as they are. What may be
+     * refined is a parallel::distributed::Triangulation, dealt out along p4est's curve. Triangles, and a rectangle that
+     * @p never_refines and does not repeat itself, are a parallel::shared::Triangulation with artificial cells, dealt
+     * out by partition_by_bisection() with @p weights.
      */
-    std::unique_ptr<dealii::Triangulation<dim, dim>> make_triangulation(double cell_size) const;
+    std::unique_ptr<dealii::Triangulation<dim, dim>>
+    make_triangulation(double cell_size, bool never_refines = false, const CellWeights &weights = {}) const;
 
     /**
      * The boundary as walls for the grains: one segment per straight side, named like the boundary, without the
@@ -80,6 +83,7 @@ namespace alluvium::mesh
 
   private:
     void read_mesh_file(const std::string &directory);
+    void make_rectangle(dealii::Triangulation<dim, dim> &triangulation, double cell_size) const;
 
     dealii::Point<dim> lower_corner, upper_corner;
     std::string        mesh_file, open_to_grains, periodic_directions;

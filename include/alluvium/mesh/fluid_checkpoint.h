@@ -14,10 +14,10 @@ namespace dealii
 namespace alluvium::mesh
 {
   /**
-   * The fluid's mesh and fields in a folder, to go on from with the same bits and with any number of ranks. A refined
-   * mesh is saved by p4est with the fields attached to its cells; for triangles, which never change, the fields go by
-   * vertex. `fluid.manifest` lists the files with their sizes and checksums. It is written last: without it there is no
-   * checkpoint.
+   * The fluid's mesh and fields in a folder, to go on from with the same bits and with any number of ranks. A mesh
+   * that may be refined is saved by p4est with the fields attached to its cells; for one that never changes, which all
+   * ranks know, the fields go by vertex. `fluid.manifest` lists the files with their sizes and checksums. It is written
+   * last: without it there is no checkpoint.
    *
    * Loading takes two steps, because the caller has to build the space in between:
    *

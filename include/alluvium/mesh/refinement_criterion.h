@@ -77,6 +77,9 @@ namespace alluvium::mesh
     /** The largest size that it ever wants somewhere [m], or no_wish: the unrefined mesh need not be finer. */
     virtual double coarsest_size(const RefinementContext &) const { return no_wish; }
 
+    /** Is coarsest_size() what it wants everywhere and always? */
+    virtual bool is_uniform() const { return false; }
+
     /** Does it look at the fluid's fields? */
     virtual bool needs_fluid() const { return false; }
   };
