@@ -2,7 +2,6 @@
 #include <alluvium/coupling/rotation.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,35 +30,7 @@ namespace alluvium::coupling
   void Coupling::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Coupling");
-    prm.add_parameter(
-      "Filter radius",
-      filter_text,
-      "Radius of the disc over which a grain gives to and reads from the fluid: `grain` (its own fluid radius, as in "
-      "the paper) or a multiple of its contact diameter, e.g. `2 d`. On cells finer than about two grain diameters "
-      "only "
-      "1.5 d to 2 d give the right flux through a bed.");
-    prm.add_parameter(
-      "Filter shape",
-      shape_text,
-      "How a grain is spread over the filter's disc: `even`, or `smooth`, as 1 - q^2/R^2 of the "
-      "distance q from its centre, so that nothing jumps where the edge of the disc crosses cells; one of "
-      "`2.5 d` is as wide as an even one of `2 d`. With `Filter radius = grain` always even.",
-      Patterns::Selection("even|smooth"));
-    prm.add_parameter(
-      "Overlap rule",
-      rule_text,
-      "How shape functions are integrated over the pieces of a grain: `centroid` (the paper: at the piece's centroid, "
-      "exact for linear functions), `moments` (with second moments: exact for bilinear functions on parallelograms) "
-      "or, "
-      "for comparison only, `centre` (a grain is spread evenly over the cell that has its centre, and jumps from cell "
-      "to "
-      "cell; there is no filter).",
-      Patterns::Selection("centroid|moments|centre"));
-    prm.add_parameter("Overlap tolerance",
-                      settings.tolerance,
-                      "A grain that has moved by less than this times its diameter keeps its pieces; in a bed at rest "
-                      "nothing is cut. At 0 every grain that moved at all is cut.",
-                      Patterns::Double(0., 0.1));
+    overlap_parameters.add_parameters(prm);
     prm.add_parameter("Added mass coefficient",
                       added_mass,
                       "C_m of the added mass C_m rho V (Du/Dt - dv/dt): 0.5 for spheres, 1 for discs; 0: none. Needs a "
@@ -76,50 +47,21 @@ namespace alluvium::coupling
       "floor",
       "What to do where the void fraction is far below that of any packing: inside grains, on fine meshes without a "
       "filter.");
-    scheme_choice.add_parameters(prm,
-                                 "Time scheme",
-                                 "iterated",
-                                 "How grains and fluid see each other's velocity within a time step.");
+    scheme_choice.add_parameters(
+      prm, "Time scheme", "iterated", "How grains and fluid see each other's velocity within a time step.");
     prm.leave_subsection();
   }
 
 
   void Coupling::parse_parameters()
   {
-    const std::string text = Utilities::trim(filter_text);
-    if (text == "grain")
-      settings.filter_radius = 0.;
-    else
-      {
-        std::size_t end = 0;
-        double      x   = 0.;
-        try
-          {
-            x = std::stod(text, &end);
-          }
-        catch (const std::exception &)
-          {}
-        check_user(end > 0 && Utilities::trim(text.substr(end)) == "d" && x >= 0.5 && x <= 20.,
-                   "Coupling/Filter radius: expected `grain` or a number of grain diameters between 0.5 and 20 "
-                   "followed by d, such as "
-                   "`2 d`; got '" +
-                     filter_text + "'.");
-        settings.filter_radius = x;
-      }
-    settings.shape = shape_text == "smooth" ? OverlapSettings::Shape::smooth : OverlapSettings::Shape::even;
-    check_user(settings.shape_of_discs() == OverlapSettings::Shape::even || settings.filter_radius >= 1.,
-               "Coupling/Filter radius: a smooth filter needs at least `1 d`, since in the middle it weighs twice its "
-               "mean; got '" +
-                 filter_text + "'.");
+    settings           = overlap_parameters.settings();
+    settings.keep_arms = rotation;
     check_user(
       added_mass == 0. || scheme_choice.get().predicts_acceleration(),
       "Coupling/Added mass coefficient: added mass needs a time scheme that predicts how the grains accelerate, "
       "such as `semi-implicit per grain`; '" +
         scheme_choice.name() + "' does not.");
-    settings.keep_arms = rotation;
-    settings.rule      = rule_text == "centroid" ? OverlapSettings::Rule::centroid
-                         : rule_text == "centre" ? OverlapSettings::Rule::centre
-                                                 : OverlapSettings::Rule::moments;
   }
 
 
@@ -271,11 +213,8 @@ namespace alluvium::coupling
     problem.dt               = factor * dt;
     problem.inertia          = &inertia;
     problem.stabilisation_dt = dt;
-    // what the solver leaves is an acceleration, too: that of a step, not of a long one
-    const double tolerance          = solver->linear_solver.tolerance;
-    solver->linear_solver.tolerance = std::max(tolerance / factor, std::min(tolerance, 1e-12));
+    problem.tolerance_factor = 1. / factor; // what the solver leaves is an acceleration, too: that of a step of dt
     solve(boundary_conditions, *frozen_scheme(), problem, state);
-    solver->linear_solver.tolerance = tolerance;
     if (!is_slow)
       {
         // the pressure that did away with what interpolation left is not that of the flow
@@ -346,8 +285,10 @@ namespace alluvium::coupling
   {
     state.before_latest.swap(state.latest);
     evaluate(map, *space, field, state.latest);
-    if (rotation)
-      state.latest_gradient = velocity_gradients(map, *space, field);
+    if (!rotation)
+      return;
+    state.before_latest_gradient.swap(state.latest_gradient);
+    state.latest_gradient = velocity_gradients(map, *space, field);
   }
 
 
@@ -406,9 +347,8 @@ namespace alluvium::coupling
     loads.spin_drag      = std::move(torques.spin_drag);
 
     // what the fluid saw
-    const auto &exchange     = map.terms().exchange;
-    const auto  lag_gradient = velocity_gradients(map, *space, latest_sweep);
-    double      sum          = 0.;
+    const auto &exchange = map.terms().exchange;
+    double      sum      = 0.;
     for (std::size_t k = 0; k < state.n_pieces(); ++k)
       {
         const auto        &x = exchange[k];
@@ -420,7 +360,7 @@ namespace alluvium::coupling
         sum += area * ((state.grains.x[g] + arm[0]) * f[1] - (state.grains.y[g] + arm[1]) * f[0]);
         sum += (1. - b) * couple(state, k, state.latest_gradient[k]) - area * state.gamma[k] * x.omega * (c[0] + c[2]);
         if (x.reference)
-          sum += b * couple(state, k, x.reference == 1 ? state.old_gradient[k] : lag_gradient[k]);
+          sum += b * couple(state, k, x.reference == 1 ? state.old_gradient[k] : state.before_latest_gradient[k]);
       }
     last.torque_on_grains = Utilities::MPI::sum(sum, space->communicator());
   }

@@ -20,7 +20,7 @@ namespace alluvium::fluid
   namespace
   {
     constexpr int    dim                 = 2;
-    constexpr double acceptable_residual = 1e-5;
+    constexpr double acceptable_residual = 1e-5, smallest_tolerance = 1e-12;
     // of a diagonal entry of the velocity block over its row sum, above which ILU(0) needs too many iterations
     constexpr double diffusive_ratio = 20.;
     // fresh, the cheap preconditioner needs about ten iterations or fails
@@ -55,7 +55,7 @@ namespace alluvium::fluid
       const TrilinosWrappers::PreconditionBase  &first_velocity, &last_velocity;
       const TrilinosWrappers::PreconditionAMG   &pressure;
       const std::vector<double>                 &mobility;
-      const std::vector<double>                 &row_sums;     // for the last velocity; empty: last_velocity it is
+      const std::vector<double>                 *row_sums;     // for the last velocity; none: last_velocity it is
       const Vector                              *inverse_mass; // where convection is strong
       double                                     scale;
       mutable BlockVector                        r, s;
@@ -71,14 +71,14 @@ namespace alluvium::fluid
         for (unsigned int i = 0; i < mobility.size(); ++i)
           dst.block(1).local_element(i) += mobility[i] * r.block(1).local_element(i);
         matrix.block(0, 1).vmult(r.block(0), dst.block(1));
-        if (row_sums.empty())
+        if (!row_sums)
           {
             last_velocity.vmult(s.block(0), r.block(0));
             dst.block(0) -= s.block(0);
           }
         else // with which p is the solution of the continuity equation
-          for (unsigned int i = 0; i < row_sums.size(); ++i)
-            dst.block(0).local_element(i) -= r.block(0).local_element(i) / row_sums[i];
+          for (unsigned int i = 0; i < row_sums->size(); ++i)
+            dst.block(0).local_element(i) -= r.block(0).local_element(i) / (*row_sums)[i];
       }
 
       /** p becomes P^-1 (D + B^T M^-1 A M^-1 B) p. */
@@ -92,31 +92,6 @@ namespace alluvium::fluid
         matrix.block(1, 1).vmult(s.block(1), p);
         s.block(1) += r.block(1);
         pressure.vmult(p, s.block(1));
-      }
-    };
-
-    /** Inertia and drag of the owned velocities, and how far diffusion outweighs them. */
-    struct RowSums
-    {
-      std::vector<double> sum;
-      double              largest_ratio = 0.; // of a diagonal entry over its row sum, on any rank
-
-      RowSums(const TrilinosWrappers::SparseMatrix &matrix, const LinearSolverScales &scales)
-      {
-        const Epetra_CrsMatrix &rows = matrix.trilinos_matrix();
-        Epetra_Vector           diagonal(rows.RowMap());
-        rows.ExtractDiagonalCopy(diagonal);
-        for (int i = 0; i < rows.NumMyRows(); ++i)
-          {
-            // convection can turn the sign of those next to walls, whose columns are missing
-            const double volume = scales.volumes.block(0).local_element(i);
-            int          n      = 0;
-            double      *value  = nullptr;
-            rows.ExtractMyRowView(i, n, value);
-            sum.push_back(std::max(std::accumulate(value, value + n, 0.), 0.1 * scales.inertia * volume));
-            largest_ratio = std::max(largest_ratio, diagonal[i] / sum[i]);
-          }
-        largest_ratio = Utilities::MPI::max(largest_ratio, matrix.get_mpi_communicator());
       }
     };
 
@@ -135,6 +110,32 @@ namespace alluvium::fluid
       return sums;
     }
   } // namespace
+
+
+  /** Inertia and drag of the owned velocities, and how far diffusion outweighs them. */
+  struct LinearSolver::RowSums
+  {
+    std::vector<double> sum;
+    double              largest_ratio = 0.; // of a diagonal entry over its row sum, on any rank
+
+    RowSums(const TrilinosWrappers::SparseMatrix &matrix, const LinearSolverScales &scales)
+    {
+      const Epetra_CrsMatrix &rows = matrix.trilinos_matrix();
+      Epetra_Vector           diagonal(rows.RowMap());
+      rows.ExtractDiagonalCopy(diagonal);
+      for (int i = 0; i < rows.NumMyRows(); ++i)
+        {
+          // convection can turn the sign of those next to walls, whose columns are missing
+          const double volume = scales.volumes.block(0).local_element(i);
+          int          n      = 0;
+          double      *value  = nullptr;
+          rows.ExtractMyRowView(i, n, value);
+          sum.push_back(std::max(std::accumulate(value, value + n, 0.), 0.1 * scales.inertia * volume));
+          largest_ratio = std::max(largest_ratio, diagonal[i] / sum[i]);
+        }
+      largest_ratio = Utilities::MPI::max(largest_ratio, matrix.get_mpi_communicator());
+    }
+  };
 
 
   void LinearSolver::add_parameters(ParameterHandler &prm)
@@ -169,14 +170,13 @@ namespace alluvium::fluid
   }
 
 
-  void LinearSolver::build(const TrilinosWrappers::BlockSparseMatrix &matrix)
+  void LinearSolver::build(const TrilinosWrappers::BlockSparseMatrix &matrix, const RowSums &row_sums)
   {
     const auto             &A    = matrix.block(0, 0);
     const Epetra_CrsMatrix &rows = A.trilinos_matrix();
     pressure.clear(); // while the matrix that its smoothers look at is still there
     velocity.initialize(A, TrilinosWrappers::PreconditionILU::AdditionalData(0));
 
-    const RowSums                 row_sums(A, scales);
     const std::vector<double>     mass = convective ? absolute_row_sums(rows) : row_sums.sum;
     TrilinosWrappers::MPI::Vector inverse(A.locally_owned_range_indices(), A.get_mpi_communicator());
     inverse_mass.reinit(scales.volumes.block(0), true);
@@ -234,21 +234,24 @@ namespace alluvium::fluid
                                          const BlockVector                         &right_hand_side,
                                          const std::array<double, 2>               &scale,
                                          const AffineConstraints<double>           &constraints,
+                                         const double                               tolerance_factor,
                                          BlockVector                               &x)
   {
     LinearSolverReport report;
     const double       ratio = scale[0] / scale[1];
     BlockVector        rhs(right_hand_side);
     rhs.block(1) *= ratio;
-    const double norm = rhs.l2_norm(), target = tolerance * scale[0];
+    const double stop = std::max(tolerance * tolerance_factor, std::min(tolerance, smallest_tolerance));
+    const double norm = rhs.l2_norm(), target = stop * scale[0];
     AssertThrow(std::isfinite(norm), ExcMessage("The fluid's right-hand side is not finite."));
     x               = 0.;
     report.residual = norm / scale[0];
     if (norm <= target)
       return report;
 
+    const RowSums row_sums(matrix.block(0, 0), scales);
     if (!exists)
-      build(matrix);
+      build(matrix, row_sums);
     for (bool retry = true; retry;)
       {
         const unsigned int limit = convective ? max_iterations : std::min(max_iterations, cheap_iterations);
@@ -259,12 +262,17 @@ namespace alluvium::fluid
         SolverGMRES<BlockVector>                  gmres(control, data);
         const TrilinosWrappers::PreconditionBase &first =
           diffusive ? static_cast<const TrilinosWrappers::PreconditionBase &>(coarse_velocity) : velocity;
-        std::vector<double> lumped;
-        if (!convective)
-          if (RowSums of_now(matrix.block(0, 0), scales); of_now.largest_ratio < lumping_ratio)
-            lumped = std::move(of_now.sum);
-        const BlockFactors preconditioner{
-          matrix, first, velocity, pressure, mobility, lumped, convective ? &inverse_mass : nullptr, ratio, rhs, rhs};
+        const BlockFactors preconditioner{matrix,
+                                          first,
+                                          velocity,
+                                          pressure,
+                                          mobility,
+                                          !convective && row_sums.largest_ratio < lumping_ratio ? &row_sums.sum
+                                                                                                : nullptr,
+                                          convective ? &inverse_mass : nullptr,
+                                          ratio,
+                                          rhs,
+                                          rhs};
         x     = 0.;
         retry = false;
         try
@@ -277,7 +285,7 @@ namespace alluvium::fluid
             if (!fresh || !convective)
               {
                 convective = convective || fresh;
-                build(matrix);
+                build(matrix, row_sums);
                 retry = true;
                 continue;
               }
@@ -287,7 +295,7 @@ namespace alluvium::fluid
             AssertThrow(control.last_value() <= acceptable_residual * scale[0],
                         ExcMessage("The fluid's linear solver has not converged in " + std::to_string(max_iterations) +
                                    " iterations: relative residual " + in_digits(control.last_value() / scale[0]) +
-                                   ", tolerance " + in_digits(tolerance) + "."));
+                                   ", tolerance " + in_digits(stop) + "."));
           }
         report.n_iterations = control.last_step();
         report.residual     = control.last_value() / scale[0];

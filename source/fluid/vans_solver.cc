@@ -122,8 +122,8 @@ namespace alluvium::fluid
         const std::array<double, 2> scale = term_scale();
         if (scale[0] == 0.)
           return; // nothing moves and nothing pushes
-        const LinearSolverReport solve =
-          linear_solver.solve(assembler.matrix(), residual, scale, space->constraints(), increment);
+        const LinearSolverReport solve = linear_solver.solve(
+          assembler.matrix(), residual, scale, space->constraints(), current.tolerance_factor, increment);
         report.residual = solve.residual;
         report.n_iterations += solve.n_iterations;
         report.loose = report.loose || solve.loose;

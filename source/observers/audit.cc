@@ -92,8 +92,8 @@ namespace alluvium::observers
               summary.warn(
                 "More than 0.1 % of the momentum that fluid and grains exchanged did not reach the fluid (see "
                 "audit/momentum_not_received_over_impulse): where grains begin to move, contact forces are "
-                "those of the step before. Smaller time steps make it less, and so does Coupling/Time scheme "
-                "= iterated.");
+                "not what the fluid was solved with. Smaller time steps make it less, and so does Coupling/Time "
+                "scheme = iterated where it is not in use.");
           }
       }
 

@@ -166,7 +166,7 @@ namespace alluvium::coupling
     PluginChoice<DragLaw>            drag_choice;
     PluginChoice<TimeScheme>         scheme_choice;
     PluginChoice<DragRegularisation> regularisation_choice;
-    std::string                      filter_text = "2 d", shape_text = "even", rule_text = "moments";
+    OverlapParameters                overlap_parameters;
     double                           added_mass = 0.;
     bool                             rotation   = false;
 

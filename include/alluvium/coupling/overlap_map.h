@@ -1,35 +1,12 @@
 #pragma once
 
+#include <alluvium/coupling/overlap_settings.h>
 #include <alluvium/fluid/fluid_space.h>
 #include <alluvium/fluid/interphase.h>
-#include <alluvium/geometry/grid_cutter.h>
 #include <alluvium/grains/grain_arrays.h>
 
 namespace alluvium::coupling
 {
-  /** Over what disc a grain is spread and how, and how shape functions are integrated over its pieces. */
-  struct OverlapSettings
-  {
-    enum class Rule
-    {
-      centroid, // shape functions at the piece's centroid (the paper): exact for linear functions
-      moments,  // with second moments: exact for Q1 on parallelograms
-      centre    // all of a grain evenly in the cell that has its centre, whatever the filter: jumps from cell to cell
-    };
-    /** How a grain is spread over the filter's disc: `even`, or `smooth`, as 2 (1 - q^2/R^2) of the distance q from
-     * the centre, so that nothing jumps at the edge. */
-    using Shape          = geometry::DiscWeight;
-    double filter_radius = 2.; // in contact diameters; 0: the grain's own fluid radius, over which it is always even
-    Rule   rule          = Rule::moments;
-    /** A grain that has moved by less than this [contact diameters] since it was cut is not cut again. */
-    double tolerance = 1e-6;
-    bool   keep_arms = false; // see OverlapMap::arms()
-    Shape  shape     = Shape::even;
-
-    /** The shape that the discs have. */
-    Shape shape_of_discs() const { return filter_radius > 0. ? shape : Shape::even; }
-  };
-
   struct GrainImages;
 
   /** Where a piece is in its grain, and how far it stretches. */

@@ -53,7 +53,8 @@ namespace alluvium::coupling
 
     const GrainMotion *answer = nullptr; // to the latest sweep, where the step is repeated with it
 
-    std::vector<VelocityGradient> old_gradient, latest_gradient; // of the same; empty where spin is not coupled
+    // of the same; empty where spin is not coupled
+    std::vector<VelocityGradient> old_gradient, latest_gradient, before_latest_gradient;
 
     // Added mass C_m rho per volume of grain [kg/m^3] and, per piece, the fluid's acceleration but for du/dt: u.grad u
     // - u^n/dt [m/s^2]; zero and empty where it is off.

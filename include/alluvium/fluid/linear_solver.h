@@ -47,13 +47,14 @@ namespace alluvium::fluid
 
     /**
      * Solve matrix * x = right_hand_side until the residual is below the tolerance times @p scale, the norms of the two
-     * equations' terms. Where GMRES stalls above it but below 1e-5, the report says `loose`; throws if it cannot do
-     * that either.
+     * equations' terms, and times @p tolerance_factor, as far as round-off allows. Where GMRES stalls above it but
+     * below 1e-5, the report says `loose`; throws if it cannot do that either.
      */
     LinearSolverReport solve(const dealii::TrilinosWrappers::BlockSparseMatrix &matrix,
                              const BlockVector                                 &right_hand_side,
                              const std::array<double, 2>                       &scale,
                              const dealii::AffineConstraints<double>           &constraints,
+                             const double                                       tolerance_factor,
                              BlockVector                                       &x);
 
     double       tolerance         = 1e-8;
@@ -64,7 +65,8 @@ namespace alluvium::fluid
     LinearSolverScales scales;
 
   private:
-    void build(const dealii::TrilinosWrappers::BlockSparseMatrix &matrix);
+    struct RowSums;
+    void build(const dealii::TrilinosWrappers::BlockSparseMatrix &matrix, const RowSums &row_sums);
 
     bool                                      fresh = false, exists = false, diffusive = false, convective = false;
     unsigned int                              n_when_fresh = 0;

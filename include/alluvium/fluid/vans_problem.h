@@ -31,8 +31,9 @@ namespace alluvium::fluid
     const BlockVector            *inertia          = nullptr; // u of du/dt = (u^{n+1} - u)/dt where that is not u^n
     double                        stabilisation_dt = 0.;      // dt of tau where that is not dt [s]
     const InterphaseTerms<dim>   *solid;
-    std::array<const Vector *, 3> reference   = {{nullptr, nullptr, nullptr}}; // u_ref of the pieces; [0] stays null
-    const dealii::Function<dim>  *body_force  = nullptr; // [N/m^3], dim components; for manufactured solutions
-    const dealii::Function<dim>  *mass_source = nullptr; // [1/s]
+    std::array<const Vector *, 3> reference = {{nullptr, nullptr, nullptr}}; // u_ref of the pieces; [0] stays null
+    double                        tolerance_factor = 1.;      // of the linear solver's tolerance, for this problem
+    const dealii::Function<dim>  *body_force       = nullptr; // [N/m^3], dim components; for manufactured solutions
+    const dealii::Function<dim>  *mass_source      = nullptr; // [1/s]
   };
 } // namespace alluvium::fluid
