@@ -15,8 +15,7 @@ namespace alluvium::coupling
       radius,
       "Radius of the disc over which a grain gives to and reads from the fluid: `grain` (its own fluid radius, as in "
       "the paper) or a multiple of its contact diameter, e.g. `2 d`. On cells finer than about two grain diameters "
-      "only "
-      "1.5 d to 2 d give the right flux through a bed.");
+      "only 1.5 d to 2 d give the right flux through a bed.");
     prm.add_parameter(
       "Filter shape",
       shape,
@@ -29,10 +28,8 @@ namespace alluvium::coupling
       rule,
       "How shape functions are integrated over the pieces of a grain: `centroid` (the paper: at the piece's centroid, "
       "exact for linear functions), `moments` (with second moments: exact for bilinear functions on parallelograms) "
-      "or, "
-      "for comparison only, `centre` (a grain is spread evenly over the cell that has its centre, and jumps from cell "
-      "to "
-      "cell; there is no filter).",
+      "or, for comparison only, `centre` (a grain is spread evenly over the cell that has its centre, and jumps from "
+      "cell to cell; there is no filter).",
       Patterns::Selection("centroid|moments|centre"));
     prm.add_parameter("Overlap tolerance",
                       tolerance,
@@ -60,8 +57,7 @@ namespace alluvium::coupling
           {}
         check_user(end > 0 && Utilities::trim(text.substr(end)) == "d" && x >= 0.5 && x <= 20.,
                    "Coupling/Filter radius: expected `grain` or a number of grain diameters between 0.5 and 20 "
-                   "followed by d, such as "
-                   "`2 d`; got '" +
+                   "followed by d, such as `2 d`; got '" +
                      radius + "'.");
         result.filter_radius = x;
       }

@@ -88,9 +88,9 @@ namespace alluvium::observers
     };
   } // namespace
 
-  ALLUVIUM_REGISTER_OBSERVER(Settling,
-                             "settling",
-                             "Mean speed at which the grains of a range of heights sink, its fluctuations, the fluid's "
-                             "force on them, and what the "
-                             "drag law makes of it in a homogeneous suspension without net flux.")
+  ALLUVIUM_REGISTER_OBSERVER(
+    Settling,
+    "settling",
+    "Mean speed at which the grains of a range of heights sink, its fluctuations, the fluid's "
+    "force on them, and what the drag law makes of it in a homogeneous suspension without net flux.")
 } // namespace alluvium::observers

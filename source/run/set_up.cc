@@ -32,14 +32,15 @@ namespace alluvium::run
     void set_up_fluid(Model &m, const double coarse_size, Checkpoint *from)
     {
       count_cell_weights(m);
-      const bool never_refines = m.adaptivity.never_refines(coarse_size, m.refinement_context());
+      const auto context       = m.refinement_context();
+      const bool never_refines = m.adaptivity.never_refines(coarse_size, context);
       auto       mesh          = m.domain.make_triangulation(coarse_size, never_refines, m.cell_weights);
       m.adaptivity.check_mesh(*mesh);
       if (from)
         from->load_mesh(*mesh);
       m.adaptivity.balance(*mesh, m.cell_weights);
       if (!from)
-        m.adaptivity.make_initial_mesh(*mesh, m.refinement_context());
+        m.adaptivity.make_initial_mesh(*mesh, context);
 
       m.boundary_conditions.initialize(
         m.domain.boundary_ids(),
