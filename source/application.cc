@@ -2,12 +2,13 @@
 #include <alluvium/scene/declared_parameters.h>
 #include <alluvium/scene/parameter_file.h>
 #include <alluvium/simulation.h>
+#include <alluvium/utilities/failure.h>
+#include <alluvium/utilities/log.h>
 #include <alluvium/utilities/mpi_environment.h>
 #include <alluvium/utilities/signals.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/config.h>
-#include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_handler.h>
 
@@ -16,10 +17,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <iostream>
-#include <regex>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -102,7 +102,10 @@ namespace alluvium
            "  mpirun -np N alluvium [options] scene.prm\n\n"
         << described_options()
         << "\nA SIGINT (Ctrl-C), SIGTERM or SIGUSR1 ends a run after its present step, with a checkpoint; a second one "
-           "at once.\n";
+           "at once.\n\nExit codes: 0 the run has finished or a signal has ended it; 1 a mistake in the scene or the "
+           "command line, or files\nthat cannot be read or written; 2 the linear solver gave up, or a mistake of the "
+           "program; 3 the computation has\ndiverged. All but those before the first step leave summary.json, which "
+           "says why, and a checkpoint of the last good step.\n";
     }
 
     void print_version(std::ostream &out)
@@ -153,23 +156,6 @@ namespace alluvium
           install_stop_signals();
           simulation.run(prm, directory);
         }
-    }
-
-    /** deal.II's exceptions come with a page of text: what happened and where is enough. */
-    std::string short_text(const dealii::ExceptionBase &exception)
-    {
-      std::ostringstream info;
-      exception.print_info(info);
-      std::string text = std::regex_replace(info.str(), std::regex("[ \t]*\n[ \t\n]*"), "\n  ");
-      text.erase(0, text.find_first_not_of(" \n"));
-      text.erase(text.find_last_not_of(" \n") + 1);
-
-      const std::string name = exception.get_exc_name();
-      std::cmatch       match;
-      if (std::regex_search(exception.what(), match, std::regex("in line <(\\d+)> of file <([^>]*)>")))
-        text += "\n  (" + name.substr(0, name.find('(')) + ", " +
-                std::filesystem::path(match[2].str()).filename().string() + ":" + match[1].str() + ")";
-      return text;
     }
 
     /**
@@ -227,6 +213,8 @@ namespace alluvium
     const MpiEnvironment mpi(mpi_argc, mpi_argv);
     const bool           is_first_rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
 
+    const Log log(!is_first_rank);
+
     // A communicator of its own: what finish() sends must not meet what a failed step has left behind.
     MPI_Comm communicator;
     MPI_Comm_dup(MPI_COMM_WORLD, &communicator);
@@ -237,25 +225,11 @@ namespace alluvium
       {
         run(read_command_line(argc, argv), is_first_rank);
       }
-    catch (const UserError &error)
-      {
-        exit_code = 1;
-        message   = error.what();
-      }
-    catch (const dealii::ExceptionBase &exception)
-      {
-        exit_code = 2;
-        message   = short_text(exception);
-      }
-    catch (const std::exception &exception)
-      {
-        exit_code = 2;
-        message   = exception.what();
-      }
     catch (...)
       {
-        exit_code = 2;
-        message   = "an unknown exception.";
+        const Failure failure = describe_failure(std::current_exception());
+        exit_code             = failure.exit_code;
+        message               = failure.message;
       }
     std::cout.flush();
     exit_code = finish(communicator, exit_code, message);

@@ -2,9 +2,11 @@
 #include <alluvium/run/mesh_changes.h>
 #include <alluvium/run/model.h>
 #include <alluvium/run/output.h>
+#include <alluvium/run/run_guard.h>
 #include <alluvium/run/scene_report.h>
 #include <alluvium/run/set_up.h>
 #include <alluvium/simulation.h>
+#include <alluvium/utilities/divergence.h>
 #include <alluvium/utilities/progress.h>
 #include <alluvium/utilities/signals.h>
 
@@ -22,6 +24,7 @@ namespace alluvium
     explicit Implementation(MPI_Comm communicator)
       : model(communicator)
       , output(model)
+      , guard(model, output)
     {}
 
     void add_parameters(ParameterHandler &prm);
@@ -32,12 +35,14 @@ namespace alluvium
     run::Output output;
 
   private:
+    int  advance();
     void step();
     void count_step();
 
-    double      end_time = 1., checkpoint_interval = 0.; // [s]
-    bool        restart  = false;
-    std::string progress = "automatic";
+    run::RunGuard guard;
+    double        end_time = 1.; // [s]
+    bool          restart  = false;
+    std::string   progress = "automatic";
   };
 
 
@@ -45,14 +50,11 @@ namespace alluvium
   {
     model.add_parameters(prm);
     output.add_parameters(prm);
+    guard.add_parameters(prm);
     prm.enter_subsection("Time");
     prm.add_parameter("End time", end_time, "When the run ends [s].", Patterns::Double(0.));
     prm.leave_subsection();
     prm.enter_subsection("Output");
-    prm.add_parameter("Interval of checkpoints",
-                      checkpoint_interval,
-                      "Time between two checkpoints [s]; 0: only when the run is interrupted.",
-                      Patterns::Double(0.));
     prm.add_parameter("Restart", restart, "Continue from the checkpoint in the output folder.");
     prm.add_parameter("Progress", progress, "How to show progress.", Patterns::Selection("automatic|bar|lines|silent"));
     prm.leave_subsection();
@@ -68,7 +70,6 @@ namespace alluvium
 
   void Simulation::Implementation::run(const ParameterHandler &prm, const std::string &directory)
   {
-    const std::string                checkpoint_folder = output.folder().file("checkpoint");
     std::unique_ptr<run::Checkpoint> checkpoint;
     {
       // before anything is written: the folder stays as it was if scene or checkpoint are no good
@@ -76,7 +77,7 @@ namespace alluvium
       if (restart)
         {
           output.make_folder(true);
-          checkpoint = std::make_unique<run::Checkpoint>(model.communicator, checkpoint_folder);
+          checkpoint = std::make_unique<run::Checkpoint>(model.communicator, output.folder().file("checkpoint"));
         }
       run::set_up(model, directory, checkpoint.get());
       output.choose_observers();
@@ -87,31 +88,53 @@ namespace alluvium
     report_scene();
     if (restart)
       checkpoint->resume(output);
-    if (model.speaks)
-      prm.print_parameters(output.folder().file("parameters.prm"), ParameterHandler::OutputStyle::ShortPRM);
-    if (!restart)
-      output.write_beginning();
     checkpoint.reset();
+    guard.begin(restart);
+    try
+      {
+        if (model.speaks)
+          prm.print_parameters(output.folder().file("parameters.prm"), ParameterHandler::OutputStyle::ShortPRM);
+        if (!restart)
+          output.write_beginning();
+        guard.conclude(advance());
+      }
+    catch (...)
+      {
+        guard.fail(describe_failure(std::current_exception()));
+        throw;
+      }
+  }
 
-    const double          dt    = model.time_step;
+
+  /** Step until the end, or a signal, which is returned. */
+  int Simulation::Implementation::advance()
+  {
     const Progress::Style style = progress == "bar"      ? Progress::Style::bar
                                   : progress == "lines"  ? Progress::Style::lines
                                   : progress == "silent" ? Progress::Style::silent
                                                          : Progress::Style::automatic;
     Progress              shown(model.communicator, model.time, end_time, style, std::cout);
-    bool                  stopped = false;
-    while (!stopped && model.time < end_time - 1e-6 * dt)
+    int                   signal = 0;
+    guard.start();
+    while (signal == 0 && model.time < end_time - 1e-6 * model.time_step)
       {
-        step();
+        try
+          {
+            step();
+          }
+        catch (const Divergence &error)
+          {
+            throw guard.with_place(error);
+          }
         count_step();
+        guard.judge();
         output.update();
-        stopped = stop_requested(model.communicator);
-        if (stopped || (checkpoint_interval > 0. && run::is_due(model.time, dt, checkpoint_interval)))
-          run::Checkpoint::write(checkpoint_folder, model, output);
-        shown.update(model.n_steps, model.time, dt);
+        signal = stop_requested(model.communicator);
+        guard.keep();
+        shown.update(model.n_steps, model.time, model.time_step, guard.state_in_words());
       }
     shown.finish();
-    output.conclude(stopped);
+    return signal;
   }
 
 
@@ -123,7 +146,11 @@ namespace alluvium
     if (m.has_fluid)
       {
         if (m.adaptivity.due(m.n_steps))
-          run::adapt_mesh(m);
+          {
+            guard.before_mesh_change();
+            run::adapt_mesh(m);
+            guard.after_mesh_change();
+          }
         const auto timer = m.timers.scope("fluid");
         m.boundary_conditions.set_time(m.time + dt);
         m.solver.accept();
@@ -164,6 +191,18 @@ namespace alluvium
     counts["fluid steps like the last"] += model.coupling.report().steady;
     counts["linear solves above the tolerance"] += model.coupling.report().n_loose;
     counts["steps with cells too uneven to be cut by lines"] += model.coupling.overlap().is_too_uneven();
+
+    const auto warn = [&](const char *text, const double count) {
+      if (count > 0.)
+        model.warnings.add(text, model.time, count);
+    };
+    warn("contact sub-steps were accepted above the tolerance; see Contacts in the parameters",
+         model.contact_report.n_unconverged);
+    warn("linear solves of the fluid stopped above the tolerance, at a relative residual below 1e-5",
+         model.coupling.report().n_loose);
+    warn("steps had cells whose sides lie on too many different lines: grains were cut cell by cell, which takes two "
+         "to four times as long",
+         model.coupling.overlap().is_too_uneven());
   }
 
 

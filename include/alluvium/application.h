@@ -2,6 +2,6 @@
 
 namespace alluvium
 {
-  /** The program: command line in, exit code out (0 done, 1 a mistake of the user, 2 anything else that went wrong). */
+  /** The program: command line in, exit code out (see --help). */
   int run_application(int argc, char **argv);
 } // namespace alluvium

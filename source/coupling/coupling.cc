@@ -408,7 +408,7 @@ namespace alluvium::coupling
     outside.resize(state.grains.n(), 0);
     const DragRange range = drag_law().range();
     last.force_on_grains  = {{0., 0.}};
-    last.force_scale      = 0.;
+    last.force_scale = last.force_outside_range = 0.;
     for (std::size_t g = 0; g < state.grains.n(); ++g)
       {
         force[g]     = {{sums[n * g], sums[n * g + 1]}};
@@ -417,7 +417,10 @@ namespace alluvium::coupling
           last.force_on_grains[d] += force[g][d];
         last.force_scale += std::hypot(force[g][0], force[g][1]);
         if (!range.contains(sums[n * g + 5] / sums[n * g + 4], sums[n * g + 6] / sums[n * g + 4]))
-          outside[g] = 1;
+          {
+            outside[g] = 1;
+            last.force_outside_range += std::hypot(force[g][0], force[g][1]);
+          }
       }
   }
 

@@ -1,4 +1,5 @@
 #include <alluvium/grains/contact_scales.h>
+#include <alluvium/utilities/divergence.h>
 
 #include <algorithm>
 #include <cmath>
@@ -50,13 +51,13 @@ namespace alluvium::grains
               }
           }
         if (!std::isfinite(vx * vx + vy * vy + grains.x[k] + grains.y[k]))
-          throw std::runtime_error("The position, the velocity or the load of grain " + std::to_string(grains.id[k]) +
-                                   " is not a finite number.");
+          throw Divergence("The position, the velocity or the load of grain " + std::to_string(grains.id[k]) +
+                           " is not a finite number.");
       }
     const double n_substeps = std::ceil(dt * std::sqrt(speed) / largest_move);
     if (n_substeps > 1e6)
-      throw std::runtime_error("A grain moves at " + std::to_string(std::sqrt(speed)) +
-                               " m/s: one step would need more than a million contact sub-steps.");
+      throw Divergence("A grain moves at " + std::to_string(std::sqrt(speed)) +
+                       " m/s: one step would need more than a million contact sub-steps.");
     return std::max(1., n_substeps);
   }
 } // namespace alluvium::grains

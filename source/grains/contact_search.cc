@@ -1,5 +1,6 @@
 #include <alluvium/grains/contact_pair_sort.h>
 #include <alluvium/grains/contact_search.h>
+#include <alluvium/utilities/divergence.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <algorithm>
@@ -350,7 +351,7 @@ namespace alluvium::grains
       return candidates;
     for (std::size_t k = 0; k < n; ++k)
       if (!std::isfinite(g.x[k]) || !std::isfinite(g.y[k]))
-        throw std::runtime_error("The position of grain " + std::to_string(g.id[k]) + " is not a finite number.");
+        throw Divergence("The position of grain " + std::to_string(g.id[k]) + " is not a finite number.");
 
     const Periodicity &periodicity = geometry.periodicity;
     const double       r_max       = *std::max_element(g.radius.begin(), g.radius.end());

@@ -2,6 +2,7 @@
 #include <alluvium/grains/contact_plausibility.h>
 #include <alluvium/grains/contact_reductions.h>
 #include <alluvium/grains/contact_substep.h>
+#include <alluvium/utilities/divergence.h>
 
 #include <algorithm>
 #include <cmath>
@@ -193,7 +194,7 @@ namespace alluvium::grains
           ++report.n_loose;
         const auto speeds = largest_over_ranks(work.communicator(), largest_speeds(problem.discs, work.n_owned()));
         if (!std::isfinite(speeds[0]))
-          throw std::runtime_error("A grain velocity is not a finite number after the contact solve.");
+          throw Divergence("A grain velocity is not a finite number after the contact solve.");
         outcome.speed   = speeds[0];
         outcome.too_far = margins.h * speeds[0] > 2. * settings.max_move * step.scales.d_min;
         if (!solution.converged || outcome.too_far || !misses_contacts(speeds))

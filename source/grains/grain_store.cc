@@ -1,4 +1,5 @@
 #include <alluvium/grains/grain_store.h>
+#include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
@@ -188,7 +189,7 @@ namespace alluvium::grains
               text << "Grain " << grains.id[i] << " left the domain: it is at (" << x << ", " << y
                    << ") m, and the grains' grid reaches from (" << lower << ") to (" << upper
                    << ") m. Grains need walls around them, and a time step in which they cannot jump over them.";
-              throw std::runtime_error(text.str());
+              throw UserError(text.str());
             }
         }
     }

@@ -1,4 +1,5 @@
 #include <alluvium/grains/soft_spheres.h>
+#include <alluvium/utilities/divergence.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -201,7 +202,7 @@ namespace alluvium::grains
             grains.x[k] += h * grains.vx[k];
             grains.y[k] += h * grains.vy[k];
             if (!std::isfinite(grains.x[k] + grains.y[k]))
-              throw std::runtime_error("Grain " + std::to_string(grains.id[k]) + " has no finite position any more.");
+              throw Divergence("Grain " + std::to_string(grains.id[k]) + " has no finite position any more.");
           }
         wrap_into_box(grains, geometry.periodicity);
         geometry.walls.move(h);

@@ -34,7 +34,7 @@ namespace alluvium::observers
       for (const std::string ours : {".vtu", ".pvtu", ".pvd", ".csv", ".h5", ".xdmf"})
         if (extension == ours)
           return true;
-      return name == "summary.json" || name == "parameters.prm";
+      return name == "summary.json" || name == "parameters.prm" || name == "log.txt";
     }
   } // namespace
 

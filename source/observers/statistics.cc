@@ -28,6 +28,7 @@ namespace alluvium::observers
 
   Statistics::Statistics(const std::string &file_name, MPI_Comm communicator, const unsigned int precision)
     : file_name(file_name)
+    , communicator(communicator)
     , precision(precision)
     , is_writer(is_first_rank(communicator))
   {}
@@ -54,13 +55,17 @@ namespace alluvium::observers
   {
     if (!is_started)
       open(false);
+    int problem = 0; // errno
     if (is_writer)
       {
         for (std::size_t i = 0; i < row.size(); ++i)
           file << (i == 0 ? "" : ",") << formatted(row[i]);
+        errno = 0;
         file << '\n' << std::flush;
-        check_user(file.good(), "cannot write '" + file_name + "': " + std::strerror(errno) + ".");
+        problem = file.good() ? 0 : std::max(errno, 1);
       }
+    MPI_Bcast(&problem, 1, MPI_INT, 0, communicator);
+    check_user(problem == 0, "cannot write '" + file_name + "': " + std::strerror(problem) + ".");
     std::fill(row.begin(), row.end(), not_set);
   }
 

@@ -100,6 +100,31 @@ namespace alluvium::observers
   }
 
 
+  void Summary::clear()
+  {
+    *content = nlohmann::ordered_json::object();
+  }
+
+
+  void
+  Summary::amend(const std::string &file_name, const std::map<std::string, std::string> &texts, const int exit_code)
+  {
+    try
+      {
+        Summary summary(file_name, MPI_COMM_SELF);
+        if (!std::ifstream(file_name).good())
+          return;
+        summary.resume();
+        for (const auto &[path, text] : texts)
+          summary.set(path, text);
+        summary.set("exit_code", exit_code);
+        summary.write();
+      }
+    catch (const std::exception &)
+      {} // the message on the screen is what counts
+  }
+
+
   void Summary::write() const
   {
     if (is_writer)

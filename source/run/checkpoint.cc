@@ -15,6 +15,14 @@ namespace alluvium::run
 
   void Checkpoint::write(const std::string &folder, Model &m, const Output &output)
   {
+    write(folder, m, [&](nlohmann::ordered_json &state) { output.save(state); });
+  }
+
+
+  void Checkpoint::write(const std::string                                   &folder,
+                         Model                                               &m,
+                         const std::function<void(nlohmann::ordered_json &)> &save_output)
+  {
     const auto timer = m.timers.scope("checkpoints");
     // a new folder takes the place of the old one only when it is complete
     const std::string folder_new = folder + ".new";
@@ -41,7 +49,7 @@ namespace alluvium::run
     state["datum"]  = m.solver.datum();
     state["counts"] = m.counts;
     if (m.speaks)
-      output.save(state);
+      save_output(state);
     write_checked_file(m.communicator, folder_new + "/state", "state", m.speaks ? state.dump(1) : "");
     if (m.speaks)
       {

@@ -16,6 +16,7 @@ namespace alluvium::run
     , solver(space)
     , coupling(space, solver)
     , store(communicator)
+    , warnings(speaks)
     , contact_iteration(coupling, contacts, timers)
   {}
 

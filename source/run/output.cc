@@ -139,7 +139,14 @@ namespace alluvium::run
   {
     const auto timer = model.timers.scope("observers");
     if (model.has_fluid)
-      fluid_view->head = head();
+      {
+        fluid_view->head = head();
+        if (model.n_steps > 0)
+          {
+            drag_impulse += model.time_step * model.coupling.report().force_scale;
+            drag_impulse_outside += model.time_step * model.coupling.report().force_outside_range;
+          }
+      }
     for (auto *observer : observing)
       observer->observe(snapshot());
   }
@@ -189,13 +196,23 @@ namespace alluvium::run
   }
 
 
-  void Output::conclude(const bool interrupted)
+  void Output::fill_summary(const Ending &ending, const std::map<std::string, Timers::Phase> &phases)
   {
+    summary->clear();
+    summary->set("ended", ending.how);
+    summary->set("reason", ending.reason);
+    summary->set("time_s", model.time);
+    if (ending.exit_code >= 0)
+      summary->set("exit_code", ending.exit_code);
+    for (const auto &[path, number] : extra_numbers)
+      summary->set(path, number);
+    for (const auto &[path, text] : extra_texts)
+      summary->set(path, text);
     for (auto *observer : observing)
       observer->conclude(*summary);
     summary->set("run/time_s", model.time);
     summary->set("run/steps", model.n_steps);
-    summary->set("run/interrupted", interrupted);
+    summary->set("run/interrupted", ending.how == "interrupted");
     summary->set("run/ranks", Utilities::MPI::n_mpi_processes(model.communicator));
     const auto lower = model.domain.lower(), upper = model.domain.upper();
     summary->set("domain/lower_m", std::vector<double>{lower[0], lower[1]});
@@ -209,31 +226,29 @@ namespace alluvium::run
       }
     for (const auto &[name, count] : model.counts)
       summary->set("counts/" + name, count);
-    model.timers.add(model.solver.timers);
-    const auto phases = model.timers.slowest(model.communicator);
     for (const auto &[name, phase] : phases)
       {
         summary->set("timing/" + name + "/wall_s", phase.wall);
         summary->set("timing/" + name + "/cpu_s", phase.cpu);
       }
-    const auto warn_of = [&](const std::string &name, const std::string &text) {
-      if (model.counts[name] > 0)
-        summary->warn(std::to_string(static_cast<long>(model.counts[name])) + text);
-    };
-    warn_of("contact sub-steps not converged",
-            " contact sub-steps were accepted above the tolerance; see Contacts in the parameters.");
-    warn_of("linear solves above the tolerance",
-            " linear solves of the fluid stopped above the tolerance, at a relative residual below 1e-5.");
-    warn_of("steps with cells too uneven to be cut by lines",
-            " steps had cells whose sides lie on too many different lines: grains were cut cell by cell, which takes "
-            "two to four times as long.");
     if (model.has_fluid)
       warn_of_drag_range();
+  }
+
+
+  void Output::conclude(const Ending &ending)
+  {
+    model.timers.add(model.solver.timers);
+    const auto phases = model.timers.slowest(model.communicator);
+    fill_summary(ending, phases);
+    // these are known only now; the others have been said
+    for (const auto &text : summary->warnings())
+      model.warnings.print(text);
+    for (const auto &warning : model.warnings.all())
+      summary->warn(Warnings::in_words(warning));
     summary->write();
     if (model.speaks)
       {
-        for (const auto &text : summary->warnings())
-          std::cout << "Warning: " << text << std::endl;
         double total = 0.;
         for (const auto &[name, phase] : phases)
           total += name.find(": ") == std::string::npos ? phase.wall : 0.;
@@ -242,20 +257,34 @@ namespace alluvium::run
   }
 
 
+  void Output::write_summary_alone(const Ending &ending)
+  {
+    if (!model.speaks)
+      return;
+    fill_summary(ending, model.timers.all());
+    for (const auto &warning : model.warnings.all())
+      summary->warn(Warnings::in_words(warning));
+    summary->write();
+  }
+
+
   void Output::warn_of_drag_range()
   {
-    const std::vector<grains::GrainId> ids = model.coupling.outside_drag_range(model.grains);
-    if (ids.empty())
+    const std::size_t n_outside = model.coupling.outside_drag_range(model.grains).size();
+    const double      share     = drag_impulse > 0. ? drag_impulse_outside / drag_impulse : 0.;
+    summary->set("drag law/grains_ever_outside_its_range", n_outside);
+    summary->set("drag law/share_of_drag_outside_its_range", share);
+    // grains at a surface, or starting to move, are outside it for a while in any run
+    constexpr double substantial = 0.2;
+    if (share <= substantial)
       return;
     const coupling::DragRange range = model.coupling.drag_law().range();
     std::ostringstream        text;
-    text << ids.size() << " of " << model.grains.n() << " grains were at some time outside the range of the drag law '"
+    text.precision(3);
+    text << 100. * share << " % of the fluid's force on the grains acted outside the range of the drag law '"
          << model.coupling.drag_law_name() << "' (void fraction " << range.eps_min << " to " << range.eps_max
-         << ", Reynolds number " << range.re_min << " to " << range.re_max << "): ids ";
-    const std::size_t n_shown = std::min<std::size_t>(ids.size(), 20);
-    for (std::size_t i = 0; i < n_shown; ++i)
-      text << (i ? ", " : "") << ids[i];
-    text << (n_shown < ids.size() ? ", ..." : "") << '.';
+         << ", Reynolds number " << range.re_min << " to " << range.re_max << "), on " << n_outside << " of "
+         << model.grains.n() << " grains.";
     summary->warn(text.str());
   }
 
@@ -266,6 +295,10 @@ namespace alluvium::run
     state["fluid pictures"] = fluid_pictures->state();
     for (const auto &name : Utilities::split_string_list(choice.name()))
       choice.get(name).save(state["observers"][name]);
+    state["drag impulse"] = {drag_impulse, drag_impulse_outside};
+    state["warnings"]     = nlohmann::ordered_json::array();
+    for (const auto &warning : model.warnings.all())
+      state["warnings"].push_back({warning.text, warning.count, warning.first_time});
   }
 
 
@@ -276,6 +309,12 @@ namespace alluvium::run
     for (const auto &name : Utilities::split_string_list(choice.name()))
       if (!state.at("observers").at(name).is_null())
         choice.get(name).load(state.at("observers").at(name));
+    drag_impulse         = state.at("drag impulse").at(0);
+    drag_impulse_outside = state.at("drag impulse").at(1);
+    std::vector<Warnings::Warning> warnings;
+    for (const auto &w : state.at("warnings"))
+      warnings.push_back({w.at(0), w.at(1), w.at(2)});
+    model.warnings.set(warnings);
     statistics->resume(model.time);
   }
 

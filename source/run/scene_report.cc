@@ -50,7 +50,8 @@ namespace alluvium::run
                (bed.eps < 1. ? "; homogeneous bed of void fraction " + number(bed.eps) + ": permeability " +
                                  number(bed.permeability(m.coupling.drag_law())) +
                                  " m^2, fluidised at a superficial velocity of " +
-                                 number(bed.fluidisation_velocity(m.coupling.drag_law(), m.gravity_size())) + " m/s"
+                                 number(bed.fluidisation_velocity(m.coupling.drag_law(), m.gravity_size())) + " m/s" +
+                                 (range.contains(bed.eps, range.re_min) ? "" : "; it lies outside the law's range")
                              : ""));
       }
     else

@@ -79,12 +79,19 @@ namespace alluvium::run
             m.loads.fx[i] -= displaced * m.gravity[0];
             m.loads.fy[i] -= displaced * m.gravity[1];
           }
+      const auto          memory        = m.contacts.memory();
       grains::GrainArrays trial         = m.grains;
       unsigned int        n_steps_tried = 0;
       do
         m.contact_report = m.contacts.advance(trial, m.loads, m.time_step, m.gravity);
       while (m.contact_report.n_quiet == ++n_steps_tried);
-      m.touched    = m.contacts.touched();
+      m.touched = m.contacts.touched();
+      // moving walls start where they are said to; where none moves, the rest that was found is kept
+      const auto &walls = m.contacts.walls();
+      if (std::any_of(walls.begin(), walls.end(), [](const auto &w) {
+            return w.velocity[0] != 0. || w.velocity[1] != 0. || w.spin != 0.;
+          }))
+        m.contacts.restore(memory);
       m.grains.fcx = trial.fcx;
       m.grains.fcy = trial.fcy;
     }

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <ostream>
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace alluvium
@@ -15,6 +16,13 @@ namespace alluvium
     double steady_seconds()
     {
       return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    }
+
+    /** Of the terminal that standard output is; much, where it is none. */
+    std::size_t terminal_width()
+    {
+      winsize size;
+      return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : 1000;
     }
 
     template <typename... Values>
@@ -57,13 +65,17 @@ namespace alluvium
     wall_start = wall_last = clock();
   }
 
-  void Progress::update(const unsigned int new_step, const double new_time, const double new_time_step)
+  void Progress::update(const unsigned int new_step,
+                        const double       new_time,
+                        const double       new_time_step,
+                        const std::string &new_state)
   {
     if (style == Style::silent)
       return;
     step      = new_step;
     time      = new_time;
     time_step = new_time_step;
+    state     = new_state;
     is_shown  = false;
     if (clock() - wall_last >= interval)
       show();
@@ -95,12 +107,14 @@ namespace alluvium
     const double      done    = end_time > start_time ? (time - start_time) / (end_time - start_time) : 1.;
     const int         percent = std::clamp(static_cast<int>(100. * done), 0, 100);
     const std::string numbers =
-      formatted("%3d %%  step %u  t = %.5g s  dt = %.2e s  left %s", percent, step, time, time_step, left().c_str());
+      formatted("%3d %%  step %u  t = %.5g s  dt = %.2e s  left %s", percent, step, time, time_step, left().c_str()) +
+      (state.empty() ? "" : "  " + state);
     if (style == Style::bar)
       {
         const int n_marks = percent / 5;
-        out << "\r[" << std::string(n_marks, '=') << std::string(20 - n_marks, ' ') << "] " << numbers << "\033[K"
-            << std::flush;
+        // a line that wraps could not be drawn over
+        const std::string line = "[" + std::string(n_marks, '=') + std::string(20 - n_marks, ' ') + "] " + numbers;
+        out << "\r" << line.substr(0, terminal_width() - 1) << "\033[K" << std::flush;
       }
     else
       out << numbers << std::endl;

@@ -25,10 +25,15 @@ namespace alluvium
       sigaction(signal, &action, nullptr);
   }
 
-  bool stop_requested(MPI_Comm communicator)
+  int stop_requested(MPI_Comm communicator)
   {
-    int mine = stop_signal != 0, any = 0;
-    MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_LOR, communicator);
-    return any != 0;
+    int mine = stop_signal, any = 0;
+    MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, communicator);
+    return any;
+  }
+
+  std::string signal_name(const int signal)
+  {
+    return signal == SIGINT ? "SIGINT" : signal == SIGTERM ? "SIGTERM" : signal == SIGUSR1 ? "SIGUSR1" : "a signal";
   }
 } // namespace alluvium

@@ -9,6 +9,7 @@ must_fail "there is no output folder 'output' to restart from" 1 "${restart[@]}"
 [ ! -e output ] || fail "it made an output folder"
 
 must_run 1 "$scene"
+rm -r output/checkpoint
 must_fail "there is no checkpoint in 'output'" 1 "${restart[@]}"
 rm -r output
 

@@ -27,7 +27,10 @@ interrupted() { # SIGNAL RANKS
   [ -d output/checkpoint ] && [ ! -e output/checkpoint.new ] || fail "no checkpoint, or half of one"
   /usr/bin/python3 - <<'END' || fail "summary.json or statistics.csv is not as it should be"
 import csv, json
-run = json.load(open("output/summary.json"))["run"]
+summary = json.load(open("output/summary.json"))
+assert summary["ended"] == "interrupted" and summary["exit_code"] == 0 and "SIG" in summary["reason"], summary
+run = summary["run"]
+assert summary["time_s"] == run["time_s"]
 assert run["interrupted"] is True and run["time_s"] < 1000 and run["steps"] > 3, run
 rows = list(csv.reader(open("output/statistics.csv")))
 assert len(rows) == run["steps"] + 2 and all(len(row) == len(rows[0]) for row in rows), len(rows)

@@ -33,6 +33,16 @@ TEST(Progress, LinesComeEveryFewSeconds)
             "100 %  step 64  t = 64 s  dt = 1.00e+00 s  left 0:00:00\n");
 }
 
+TEST(Progress, SaysHowTheRunIsDoing)
+{
+  std::ostringstream out;
+  double             wall = 0.;
+  Progress           progress(MPI_COMM_SELF, 0., 4., Progress::Style::lines, out, [&] { return wall; });
+  wall = 10.;
+  progress.update(1, 2., 1., "Courant 0.3");
+  EXPECT_EQ(out.str(), " 50 %  step 1  t = 2 s  dt = 1.00e+00 s  left 0:00:10  Courant 0.3\n");
+}
+
 TEST(Progress, BarStaysOnOneLine)
 {
   std::ostringstream out;

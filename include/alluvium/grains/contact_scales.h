@@ -21,7 +21,7 @@ namespace alluvium::grains
 
   /**
    * Into how many sub-steps a step of @p dt [s] is cut so that no grain moves by more than @p largest_move [m] in one:
-   * from the largest speed, now or at the end if the last step's contact forces go on. Throws std::runtime_error if
+   * from the largest speed, now or at the end if the last step's contact forces go on. Throws a Divergence if
    * something is not finite, or moves so fast that they would be more than a million.
    */
   unsigned int count_substeps(const GrainArrays &grains, const GrainLoads &loads, double dt, double largest_move);

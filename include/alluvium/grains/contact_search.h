@@ -86,7 +86,7 @@ namespace alluvium::grains
   /**
    * Find all pairs of grains, and of grains and walls, with gaps below @p skin [m]. Cells are as wide as the largest
    * grain plus the skin, so a grain's partners are in its own cell and the eight around it. In a periodic direction the
-   * grains must lie in the box, and the nearest image counts. Throws std::runtime_error if a grain's position is not
+   * grains must lie in the box, and the nearest image counts. Throws a Divergence if a grain's position is not
    * finite, and UserError if a periodic box is so narrow that a grain could touch two images of another.
    */
   ContactCandidates find_candidates(const GrainArrays &grains, const ContactGeometry &geometry, double skin);

@@ -76,7 +76,7 @@ namespace alluvium::grains
      * Advance positions, velocities and spins of @p grains by @p dt [s] under @p loads and contacts, and set their mean
      * contact force. @p gravity [m/s^2] only sets scales (it is part of the loads); without it the largest velocity
      * does. Where grains move, the tolerances are @p haste times as large: for what will be taken back. Throws
-     * std::runtime_error if a position or a velocity is not finite.
+     * a Divergence if a position or a velocity is not finite.
      */
     ContactReport
     advance(GrainArrays &grains, const GrainLoads &loads, double dt, std::array<double, 2> gravity, double haste = 1.);

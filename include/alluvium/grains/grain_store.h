@@ -38,7 +38,7 @@ namespace alluvium::grains
     /**
      * Build the grid over the box from @p lower to @p upper [m], wider by one cell on all sides, and put @p grains in,
      * which are the same on all ranks with ids 0, 1, ..., n-1. @p skin [m] is that of the contact search. Replaces what
-     * was there. Collective. Throws std::runtime_error for a grain outside the grid.
+     * was there. Collective. Throws UserError for a grain outside the grid.
      */
     void initialize(const GrainArrays           &grains,
                     const std::array<double, 2> &lower,
@@ -53,7 +53,7 @@ namespace alluvium::grains
 
     /**
      * Take over positions and properties from @p grains, the same on all ranks and with the same ids as gather() gave,
-     * and send grains that have moved to the ranks that own their cells. Collective. Throws std::runtime_error, on all
+     * and send grains that have moved to the ranks that own their cells. Collective. Throws UserError, on all
      * ranks, naming grain and position, if a position is not finite or outside the grid.
      */
     void scatter(const GrainArrays &grains);

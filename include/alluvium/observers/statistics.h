@@ -25,7 +25,7 @@ namespace alluvium::observers
 
     void set(const std::string &column, double value);
 
-    /** Write what was set since the last row; columns that were not are left empty. */
+    /** Write what was set since the last row; columns that were not are left empty. Collective. */
     void write_row();
 
     /**
@@ -40,6 +40,7 @@ namespace alluvium::observers
     std::string formatted(double value) const;
 
     const std::string        file_name;
+    const MPI_Comm           communicator;
     const unsigned int       precision;
     const bool               is_writer;
     bool                     is_started = false;

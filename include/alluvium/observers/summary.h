@@ -4,6 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -38,6 +39,15 @@ namespace alluvium::observers
     /** Add to the list "warnings", each text once. */
     void                     warn(const std::string &text);
     std::vector<std::string> warnings() const;
+
+    /** Begin anew. */
+    void clear();
+
+    /**
+     * Change the file that another rank has written: texts and numbers by their paths. For a rank that fails alone.
+     * Does nothing where there is no file, and throws nothing.
+     */
+    static void amend(const std::string &file_name, const std::map<std::string, std::string> &texts, int exit_code);
 
     /** Write the file, atomically; as often as wanted. */
     void write() const;

@@ -5,6 +5,7 @@
 #include <mpi.h>
 #include <nlohmann/json.hpp>
 
+#include <functional>
 #include <string>
 
 namespace dealii
@@ -28,6 +29,10 @@ namespace alluvium::run
   public:
     /** Write @p model and @p output to @p folder. The run goes on as a restarted one would. */
     static void write(const std::string &folder, Model &model, const Output &output);
+
+    /** The same, with what @p save_output puts into the state, on the rank that speaks, in the place of an output's. */
+    static void
+    write(const std::string &folder, Model &model, const std::function<void(nlohmann::ordered_json &)> &save_output);
 
     /** The checkpoint that write() left in @p folder. */
     Checkpoint(MPI_Comm communicator, const std::string &folder);

@@ -13,6 +13,7 @@
 #include <alluvium/observers/mesh_change.h>
 #include <alluvium/scene/grain_setup.h>
 #include <alluvium/utilities/timers.h>
+#include <alluvium/utilities/warnings.h>
 
 #include <map>
 #include <memory>
@@ -62,6 +63,7 @@ namespace alluvium::run
     grains::GrainStore                               store;
     grains::ContactStepper                           contacts;
     Timers                                           timers;
+    Warnings                                         warnings;
     coupling::ContactIteration                       contact_iteration;
     std::unique_ptr<mesh::FieldTransfer<dim>>        transfer;
 

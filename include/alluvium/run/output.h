@@ -3,10 +3,11 @@
 #include <alluvium/observers/field_series.h>
 #include <alluvium/observers/observer.h>
 #include <alluvium/observers/output_folder.h>
+#include <alluvium/utilities/timers.h>
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <iosfwd>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,6 +15,14 @@
 namespace alluvium::run
 {
   struct Model;
+
+  /** How a run has ended. */
+  struct Ending
+  {
+    std::string how;           // finished, interrupted or failed
+    std::string reason;        // in words
+    int         exit_code = 0; // of the program
+  };
 
   /** All that a run measures and writes: observers, statistics.csv, summary.json and pictures. */
   class Output
@@ -43,8 +52,15 @@ namespace alluvium::run
     /** After each step: measure it, and write what is due. */
     void update();
 
-    /** summary.json and the table of times; @p interrupted: by a signal. */
-    void conclude(bool interrupted);
+    /** Write summary.json and print warnings and the table of times. Collective. */
+    void conclude(const Ending &ending);
+
+    /** Write summary.json with what this rank knows: the others are lost, or the run goes on. No communication. */
+    void write_summary_alone(const Ending &ending);
+
+    /** Put @p text under @p path, whenever the summary is written from now on. */
+    void add_to_summary(const std::string &path, const std::string &text) { extra_texts[path] = text; }
+    void add_to_summary(const std::string &path, const double number) { extra_numbers[path] = number; }
 
     /** For checkpoints: what a restarted run must remember. */
     void save(nlohmann::ordered_json &state) const;
@@ -56,6 +72,7 @@ namespace alluvium::run
     void                observe();
     void                write_row();
     void                write_pictures();
+    void                fill_summary(const Ending &ending, const std::map<std::string, Timers::Phase> &phases);
     void                warn_of_drag_range();
 
     Model                            &model;
@@ -70,6 +87,12 @@ namespace alluvium::run
     std::unique_ptr<observers::Statistics>  statistics;
     std::unique_ptr<observers::Summary>     summary;
     std::unique_ptr<observers::FieldSeries> fluid_pictures, grain_pictures;
+
+    // impulses of the fluid on all grains, and on those outside the range of the drag law [N s/m]
+    double drag_impulse = 0., drag_impulse_outside = 0.;
+
+    std::map<std::string, std::string> extra_texts;
+    std::map<std::string, double>      extra_numbers;
   };
 
   /** Whether a multiple of @p interval lies in (time - dt, time]; an interval of 0 is due always. */

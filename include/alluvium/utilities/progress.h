@@ -29,8 +29,8 @@ namespace alluvium
     Progress(
       MPI_Comm communicator, double start_time, double end_time, Style style, std::ostream &out, Clock clock = Clock());
 
-    /** To be called after every step; prints only as often as somebody can read. */
-    void update(unsigned int step, double time, double time_step);
+    /** To be called after every step; prints only as often as somebody can read. @p state: how the run is doing. */
+    void update(unsigned int step, double time, double time_step, const std::string &state = "");
 
     /** Print a line of its own; the bar goes on below it. */
     void note(const std::string &text);
@@ -51,6 +51,7 @@ namespace alluvium
     double       wall_start, wall_last;
     unsigned int step = 0;
     double       time = 0., time_step = 0.;
+    std::string  state;
     bool         is_shown = true;
   };
 

@@ -2,6 +2,8 @@
 
 #include <mpi.h>
 
+#include <string>
+
 namespace alluvium
 {
   /**
@@ -11,6 +13,9 @@ namespace alluvium
    */
   void install_stop_signals();
 
-  /** Whether any rank was asked to stop. Collective. */
-  bool stop_requested(MPI_Comm communicator);
+  /** The signal by which any rank was asked to stop, or 0. Collective. */
+  int stop_requested(MPI_Comm communicator);
+
+  /** 'SIGTERM' and the like. */
+  std::string signal_name(int signal);
 } // namespace alluvium

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <alluvium/run/step_measures.h>
+
+#include <string>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace alluvium::run
+{
+  struct Model;
+
+  /** By what sign a step has gone wrong, and where. */
+  struct Sign
+  {
+    std::string           what; // empty: it has not
+    double                value = 0., bound = 0.;
+    std::string           unit;    // of both
+    std::array<double, 2> point{}; // [m]
+    std::string           near;    // the boundary or the grain there
+    std::string           advice;
+  };
+
+  /**
+   * Looks at every step and tells whether it can be believed. Energy is judged as a sum over steps: what the kinetic
+   * energy has gained beyond its sources, less what it has lost since. Physics makes that sum zero; discretisation
+   * leaves some percent of what flows through; where the flow runs away it becomes as large as the energy itself.
+   */
+  class DivergenceMonitor
+  {
+  public:
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /** Judge the step that @p model has taken. The same on all ranks; collective. */
+    Sign judge(const Model &model, const StepMeasures &measures);
+
+    /** Whether the last step was good beyond doubt: what a checkpoint may be made of. */
+    bool is_calm() const { return calm; }
+
+    /** The largest unexplained energy of this program's steps, over the bound of its time. */
+    double largest_share() const { return largest_share_of_bound; }
+
+    /** Whether a sign ends the run; else it is a warning. */
+    bool stops() const { return stop; }
+
+  private:
+    double noise(const Model &model) const;
+    Sign   judge_energy(const Model &model, const StepMeasures &measures);
+    Sign   judge_penetration(const Model &model) const;
+
+    bool   stop                   = true;
+    double largest_penetration    = 0.1;
+    double unexplained            = 0.; // [J/m]
+    double largest_share_of_bound = 0.;
+    bool   calm                   = true;
+  };
+
+  /** What the user reads: what, where and when, by what sign, and what to try. */
+  std::string in_words(const Sign &sign, const Model &model);
+} // namespace alluvium::run

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <alluvium/run/divergence_monitor.h>
+#include <alluvium/run/good_state.h>
+#include <alluvium/run/output.h>
+#include <alluvium/run/step_measures.h>
+#include <alluvium/utilities/divergence.h>
+#include <alluvium/utilities/failure.h>
+
+#include <chrono>
+#include <string>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace alluvium::run
+{
+  /**
+   * What surrounds the steps of a run: judges each of them, keeps checkpoints of good ones, and writes down how the run
+   * ended, however it did.
+   */
+  class RunGuard
+  {
+  public:
+    RunGuard(Model &model, Output &output)
+      : model(model)
+      , output(output)
+    {}
+    ~RunGuard();
+
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /** Once the output folder is ours: from here on fail() works. @p is_restart: it has a checkpoint. Collective. */
+    void begin(bool is_restart);
+
+    /** Before the first step. Collective. */
+    void start();
+
+    /** The mesh is going to change in this step, and has changed. Collective. */
+    void before_mesh_change() { good.forget(); }
+    void after_mesh_change();
+
+    /** Throw a Divergence if the step that the model has taken cannot be believed. Collective. */
+    void judge();
+
+    /** @p error, thrown within a step, with when and where. */
+    Divergence with_place(const Divergence &error) const;
+
+    /** Write a checkpoint if one is due, and keep the state if it is good. Collective. */
+    void keep();
+
+    /** How the last step went, for the progress. */
+    std::string state_in_words() const;
+
+    /** The run has ended well, or by @p signal: checkpoint and summary. Collective. */
+    void conclude(int signal);
+
+    /** It has ended in @p failure: leave what can be left. Throws nothing. */
+    void fail(const Failure &failure);
+
+  private:
+    void        write_checkpoint();
+    void        write_good_state();
+    void        write_provisional_summary();
+    std::string headline(bool is_restart) const;
+    /** For a checkpoint: libraries that write in parallel abort where there is none. Collective. */
+    bool disk_has_room() const;
+
+    Model            &model;
+    Output           &output;
+    StepMeter         meter;
+    DivergenceMonitor monitor;
+    GoodState         good;
+    StepMeasures      measures;
+    double            interval        = 0.; // of checkpoints [s]
+    bool              is_due          = false;
+    long              checkpoint_step = -1; // of the one in the folder
+    MPI_Comm          of_failures     = MPI_COMM_NULL;
+
+    std::chrono::steady_clock::time_point last_summary{};
+  };
+} // namespace alluvium::run

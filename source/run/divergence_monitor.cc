@@ -1,0 +1,164 @@
+#include <alluvium/grains/contact_overlaps.h>
+#include <alluvium/run/divergence_monitor.h>
+#include <alluvium/run/model.h>
+#include <alluvium/run/places.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace alluvium::run
+{
+  using namespace dealii;
+
+  namespace
+  {
+    const std::string smaller_step = "Try a smaller Time/Time step";
+
+    /** Grain @p id of a scene, whose ids are 0, 1, ... */
+    std::array<double, 2> position(const Model &m, const grains::GrainId id)
+    {
+      return {{m.grains.x[id], m.grains.y[id]}};
+    }
+  } // namespace
+
+
+  void DivergenceMonitor::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Divergence");
+    prm.add_parameter("Stop",
+                      stop,
+                      "End the run (exit code 3) when a step shows that the computation has run away; otherwise warn. "
+                      "What is not a number ends it always.");
+    prm.add_parameter("Largest penetration",
+                      largest_penetration,
+                      "Overlap of two grains, or of a grain and a wall, above which contacts have failed [diameters of "
+                      "the smaller grain].",
+                      Patterns::Double(0.));
+    prm.leave_subsection();
+  }
+
+
+  /** Energy that is not worth a word: of everything, moving at a tenth of sqrt(g d) [J/m]. */
+  double DivergenceMonitor::noise(const Model &m) const
+  {
+    const double d    = mesh::mean_diameter(m.grains);
+    double       mass = 0.;
+    for (const double x : m.grains.mass)
+      mass += std::isinf(x) ? 0. : x;
+    if (m.has_fluid)
+      mass += m.solver.properties.density * (m.domain.upper()[0] - m.domain.lower()[0]) *
+              (m.domain.upper()[1] - m.domain.lower()[1]);
+    return 0.5 * mass * 0.01 * m.gravity_size() * d;
+  }
+
+
+  Sign DivergenceMonitor::judge_energy(const Model &m, const StepMeasures &s)
+  {
+    unexplained        = std::max(0., unexplained + s.energy.remainder);
+    const double bound = 0.5 * s.energy.kinetic + noise(m);
+    calm               = unexplained < 0.5 * bound;
+    if (bound > 0.)
+      largest_share_of_bound = std::max(largest_share_of_bound, unexplained / bound);
+    if (unexplained <= bound)
+      return {};
+    const bool         fluid = m.has_fluid && s.fluid_velocity > s.grain_velocity;
+    const Place        place = fluid ? fastest_fluid(m) : fastest_grain(m);
+    std::ostringstream what;
+    what << (fluid ? "the fluid" : "a grain") << " has reached " << (fluid ? s.fluid_velocity : s.grain_velocity)
+         << " m/s: energy that no pressure, inflow, wall or weight has supplied is";
+    return {what.str(),
+            unexplained,
+            bound,
+            "J/m",
+            place.point,
+            place.name,
+            smaller_step + (m.has_fluid
+                              ? ", another Coupling/Time scheme (explicit ones have a limit), or finer cells where the "
+                                "flow leaves through an open boundary."
+                              : " or other contact parameters.")};
+  }
+
+
+  Sign DivergenceMonitor::judge_penetration(const Model &m) const
+  {
+    // cheap first: the largest overlap of all against the smallest grain
+    if (!m.grains_move || m.grains.n() == 0)
+      return {};
+    const double smallest = 2. * *std::min_element(m.grains.radius.begin(), m.grains.radius.end());
+    if (m.contact_report.max_penetration <= largest_penetration * smallest)
+      return {};
+    for (const auto &o :
+         grains::find_overlaps(m.grains, m.contacts.walls(), largest_penetration * smallest, m.domain.periodicity()))
+      {
+        const double radius =
+          o.wall.empty() ? std::min(m.grains.radius[o.a], m.grains.radius[o.b]) : m.grains.radius[o.a];
+        const double share = o.depth / (2. * radius);
+        if (share <= largest_penetration)
+          continue;
+        const std::string partner = o.wall.empty() ? "grain " + std::to_string(o.b) : "the wall '" + o.wall + "'";
+        return {"grain " + std::to_string(o.a) + " and " + partner + " overlap by",
+                share,
+                largest_penetration,
+                "diameters",
+                position(m, o.a),
+                "grain " + std::to_string(o.a),
+                "Something presses grains into a place that is too small for them, or they are too fast for the time "
+                "step. " +
+                  smaller_step + ", slower walls, or more room."};
+      }
+    return {};
+  }
+
+
+  Sign DivergenceMonitor::judge(const Model &m, const StepMeasures &s)
+  {
+    calm = false;
+    if (!s.finite || !std::isfinite(s.energy.kinetic))
+      {
+        const bool  fluid = !s.finite;
+        const Place place = fluid ? fastest_fluid(m) : fastest_grain(m);
+        return {fluid ? "a field of the fluid is not a number" : "a grain's velocity is not a number",
+                std::nan(""),
+                0.,
+                "",
+                place.point,
+                place.name,
+                smaller_step + "."};
+      }
+    Sign energy = judge_energy(m, s);
+    if (Sign sign = judge_penetration(m); !sign.what.empty())
+      {
+        calm = false;
+        return sign;
+      }
+    constexpr double largest_loss = 0.01;
+    if (std::abs(s.solid_lost) > largest_loss)
+      {
+        calm = false;
+        return {"the void fraction would have to be below 0: volume of the grains that finds no room in the cells is",
+                s.solid_lost,
+                largest_loss,
+                "of all",
+                {},
+                "",
+                "Grains lie on top of one another; see Coupling/Filter radius and Contacts. " + smaller_step + "."};
+      }
+    return energy;
+  }
+
+
+  std::string in_words(const Sign &sign, const Model &m)
+  {
+    std::ostringstream text;
+    text << "The run has diverged in step " << m.n_steps << ", t = " << m.time << " s: " << sign.what;
+    if (std::isfinite(sign.value))
+      text << ' ' << sign.value << ' ' << sign.unit << " (bound " << sign.bound << ")";
+    if (!sign.near.empty())
+      text << ", at (" << sign.point[0] << ", " << sign.point[1] << ") m, near " << sign.near;
+    text << ". " << sign.advice;
+    return text.str();
+  }
+} // namespace alluvium::run

@@ -1,0 +1,49 @@
+#!/bin/bash
+# However a run ends, summary.json says how, log.txt has what was printed, and there is a checkpoint to go on from.
+. "$SCENES/functions"
+
+ended() { # LINES of `path = regex`
+  "$SCENES/check-summary" output/summary.json <<<"$1" || fail "summary.json"
+}
+
+scene_from bed </dev/null
+
+# Finished, and prolonged.
+must_run 1 bed.prm --set 'Time/End time=0.005'
+ended $'ended = ^finished$\nexit_code = ^0$\ntime_s = ^0.005$\nreason = end time'
+[ -d output/checkpoint ] || fail "a finished run left no checkpoint"
+grep -q 'pieces of grains' output/log.txt || fail "log.txt has not what was printed"
+must_run 1 bed.prm --set 'Time/End time=0.008' --set 'Output/Restart=true'
+ended $'ended = ^finished$\ntime_s = ^0.008$'
+[ "$(wc -l <output/statistics.csv)" -eq 10 ] || fail "expected a header and 9 rows"
+[ "$(grep -c '^--- alluvium' output/log.txt)" -eq 2 ] || fail "the log of a restart goes on in the same file"
+
+# A grain leaves through a side that is open to grains, some steps after the start: the mistake of a user.
+printf 'x,y,radius\n0.001,0.00015,0.0001\n0.002,0.004,0.0001\n' >two.csv
+for ranks in 1 2; do
+  rm -rf output
+  must_fail 'Grain 0 .*left' $ranks bed.prm --set 'Domain/Open to grains=bottom' --set 'Time/End time=0.2' \
+    --set 'Grains/Deposit: file/File=two.csv' --set 'Grains/Fluid packing fraction=0' \
+    --set 'Boundary conditions/Pressure=top: 0; bottom: rho*g*H'
+  ended $'ended = ^failed$\nexit_code = ^1$\nreason = left\nrun/checkpoint = ^step [0-9]+\nrun/steps = ^[1-9]'
+  grep -q 'left' output/log.txt || fail "log.txt has not the error"
+  [ "$(wc -l <output/statistics.csv)" -gt 3 ] || fail "no statistics"
+done
+
+# The checkpoint of a failed run is one to restart from.
+time=$(/usr/bin/python3 -c 'import json, re; print(re.search("t = ([0-9.e-]+)", json.load(open("output/summary.json"))["run"]["checkpoint"])[1])')
+must_run 2 bed.prm --set 'Domain/Open to grains=bottom' --set "Time/End time=$(awk "BEGIN { print $time + 0.002 }")" \
+  --set 'Grains/Deposit: file/File=two.csv' --set 'Grains/Fluid packing fraction=0' \
+  --set 'Boundary conditions/Pressure=top: 0; bottom: rho*g*H' --set 'Output/Restart=true'
+ended $'ended = ^finished$'
+
+# Killed: what there is says so.
+rm -rf output
+"$ALLUVIUM" bed.prm --set 'Time/End time=1000' >screen-output 2>error-output </dev/null &
+for ((i = 0; i < 300; ++i)); do
+  [ "$(wc -l 2>/dev/null <output/statistics.csv || echo 0)" -gt 4 ] && break
+  sleep 0.1
+done
+kill -s KILL $!
+wait $! 2>/dev/null
+ended $'ended = ^failed$\nreason = killed'
