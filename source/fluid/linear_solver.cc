@@ -1,12 +1,11 @@
 #include <alluvium/fluid/linear_solver.h>
+#include <alluvium/fluid/sparse_product.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/lac/solver_gmres.h>
-#include <deal.II/lac/trilinos_vector.h>
 
-#include <EpetraExt_MatrixMatrix.h>
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Vector.h>
 
@@ -177,12 +176,10 @@ namespace alluvium::fluid
     pressure.clear(); // while the matrix that its smoothers look at is still there
     velocity.initialize(A, TrilinosWrappers::PreconditionILU::AdditionalData(0));
 
-    const std::vector<double>     mass = convective ? absolute_row_sums(rows) : row_sums.sum;
-    TrilinosWrappers::MPI::Vector inverse(A.locally_owned_range_indices(), A.get_mpi_communicator());
+    const std::vector<double> mass = convective ? absolute_row_sums(rows) : row_sums.sum;
     inverse_mass.reinit(scales.volumes.block(0), true);
     for (int i = 0; i < rows.NumMyRows(); ++i)
-      inverse(rows.GRID64(i)) = inverse_mass.local_element(i) = 1. / mass[i];
-    inverse.compress(VectorOperation::insert);
+      inverse_mass.local_element(i) = 1. / mass[i];
     diffusive = !convective && row_sums.largest_ratio > diffusive_ratio;
     if (diffusive)
       {
@@ -201,21 +198,13 @@ namespace alluvium::fluid
     mobility.clear();
     for (unsigned int i = 0; i < scales.volumes.block(1).locally_owned_size(); ++i)
       mobility.push_back(convective ? 0. : scales.viscosity / scales.volumes.block(1).local_element(i));
-    TrilinosWrappers::SparseMatrix product;
-    if (convective)
-      matrix.block(0, 1).Tmmult(product, matrix.block(0, 1), inverse);
-    else
-      {
-        inverse *= -1.;
-        matrix.block(1, 0).mmult(product, matrix.block(0, 1), inverse);
-      }
+    Vector sign(inverse_mass);
+    if (!convective)
+      sign *= -1.;
     // the union of both patterns: rows of prescribed pressures have no entry in C B
-    Epetra_CrsMatrix *sum = nullptr;
-    EpetraExt::MatrixMatrix::Add(
-      matrix.block(1, 1).trilinos_matrix(), false, 1., product.trilinos_matrix(), false, 1., sum);
-    schur.reset(sum);
-    schur->FillComplete(matrix.block(1, 1).trilinos_matrix().DomainMap(),
-                        matrix.block(1, 1).trilinos_matrix().RangeMap());
+    schur = sparse_sum(matrix.block(1, 1).trilinos_matrix(),
+                       convective ? *normal_product(matrix.block(0, 1), sign)
+                                  : *sparse_product(matrix.block(1, 0), sign, matrix.block(0, 1)));
 
     TrilinosWrappers::PreconditionAMG::AdditionalData data;
     data.elliptic              = true;
