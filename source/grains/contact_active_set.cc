@@ -211,9 +211,10 @@ namespace alluvium::grains
         {
           const ContactPair &p  = candidates.discs[k];
           const Disc        &vi = velocity[p.i], &vj = velocity[p.j];
-          const double       dx = grains.x[p.j] - grains.x[p.i], dy = grains.y[p.j] - grains.y[p.i];
-          const double       distance = std::sqrt(dx * dx + dy * dy);
-          const double       gap      = distance - (grains.radius[p.i] + grains.radius[p.j]);
+          double             dx = grains.x[p.j] - grains.x[p.i], dy = grains.y[p.j] - grains.y[p.i];
+          geometry.periodicity.shorten(dx, dy);
+          const double distance = std::sqrt(dx * dx + dy * dy);
+          const double gap      = distance - (grains.radius[p.i] + grains.radius[p.j]);
           if (gap * distance + h * ((vj.x - vi.x) * dx + (vj.y - vi.y) * dy) < 0. &&
               bodies.free[p.i].inverse_mass + bodies.free[p.j].inverse_mass > 0.)
             {

@@ -110,7 +110,8 @@ namespace alluvium::grains
                                     work.neighbours,
                                     work.all_touched);
       }
-    rest.steps = settings.rest_steps;
+    rest.steps       = settings.rest_steps;
+    rest.periodicity = work.geometry.periodicity;
     const Rest::Scales rest_scales{dt, scales.g, scales.mean_mass * scales.g, scales.d_min};
     if (walls.largest_speed() == 0. && rest.holds(grains, loads, rest_scales))
       return rest.stand_still(loads, grains, work.all_touched);

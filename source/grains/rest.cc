@@ -1,6 +1,7 @@
 #include <alluvium/grains/rest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace alluvium::grains
 {
@@ -27,9 +28,12 @@ namespace alluvium::grains
     if (id != grains.id)
       return false;
     for (std::size_t k = 0; k < grains.n(); ++k)
-      if (square(grains.x[k] - x[k], grains.y[k] - y[k]) > move * move ||
-          square(loads.fx[k] - fx[k], loads.fy[k] - fy[k]) > load * load)
-        return false;
+      {
+        double dx = grains.x[k] - x[k], dy = grains.y[k] - y[k];
+        periodicity.shorten(dx, dy);
+        if (square(dx, dy) > move * move || square(loads.fx[k] - fx[k], loads.fy[k] - fy[k]) > load * load)
+          return false;
+      }
     return true;
   }
 
@@ -73,6 +77,13 @@ namespace alluvium::grains
   {
     if (steps == 0 || !(scales.g > 0.))
       return;
+    // What touches nothing has nothing to rest on: it is only slow.
+    for (std::size_t k = 0; k < grains.n(); ++k)
+      if (!touched[k] && !std::isinf(grains.mass[k]))
+        {
+          report.n_quiet = n_quiet = 0;
+          return;
+        }
     if (n_quiet > 0 && report.n_unconverged == 0 && unchanged(grains, loads, scales))
       ++n_quiet;
     else

@@ -1,6 +1,7 @@
 // Grains in a box that repeats itself.
 #include <alluvium/grains/contact_overlaps.h>
 #include <alluvium/grains/contact_search.h>
+#include <alluvium/grains/rest.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <gtest/gtest.h>
@@ -54,6 +55,65 @@ TEST(Periodic, CollisionAcrossTheSide)
       EXPECT_NEAR(v[0], 0.25, 1e-12);
       EXPECT_NEAR(v[1], -0.5, 1e-12);
     }
+}
+
+// Three discs in a row: the first hits the second, and only that makes the second hit the third, within the same step.
+// The numbers are the same wherever the seam is.
+TEST(Periodic, CradleAcrossTheSide)
+{
+  const double length = 20. * d;
+  for (const double restitution : {0., 0.5, 1.})
+    for (const bool in_y : {false, true})
+      {
+        const auto run = [&](const double start) {
+          Scene s;
+          s.gy                                    = 0.;
+          s.stepper.settings().restitution        = restitution;
+          s.stepper.settings().threshold_velocity = 0.;
+          s.stepper.set_periodicity(in_y ? box(0., length) : box(length));
+          for (const double x : {0., 1.02 * d, 2.17 * d})
+            {
+              const double place = std::fmod(start + x, length), v = x == 0. ? 0.5 : 0.;
+              in_y ? s.add(0., place, 0., v) : s.add(place, 0., v);
+            }
+          s.step(4.8e-4, 2);
+          return in_y ? s.grains.vy : s.grains.vx;
+        };
+        const std::vector<double> inside = run(5. * d);
+        EXPECT_GT(inside[2], 0.); // the third has been hit
+        for (const double start : {19.5 * d, 18.4 * d})
+          {
+            const std::vector<double> across = run(start);
+            for (int k = 0; k < 3; ++k)
+              EXPECT_NEAR(across[k], inside[k], 1e-9)
+                << "disc " << k << ", restitution " << restitution << (in_y ? ", in y" : ", in x");
+          }
+      }
+}
+
+// What rests on the seam itself, now on this side of it, now on that, rests.
+TEST(Periodic, RestOnTheSeam)
+{
+  const double       length = 10. * d;
+  Rest               rest;
+  GrainArrays        grains;
+  GrainLoads         loads;
+  ContactReport      report;
+  const Rest::Scales scales{1e-3, g, 1., d};
+  grains.resize(1);
+  grains.radius[0] = r;
+  loads.reset(1);
+  rest.periodicity = box(length, length);
+  const std::vector<std::uint8_t> touched(1, 1);
+  for (unsigned int k = 0; k < rest.steps; ++k)
+    {
+      grains.x[0] = k % 2 ? 0. : length * (1. - 1e-15);
+      grains.y[0] = k % 3 ? 0. : length * (1. - 1e-15);
+      rest.watch(grains, loads, scales, touched, report);
+    }
+  EXPECT_TRUE(rest.holds(grains, loads, scales));
+  grains.x[0] = 0.5 * length;
+  EXPECT_FALSE(rest.holds(grains, loads, scales));
 }
 
 // A pair pressed together across the side and sheared: friction takes mu F from each until they roll on each other.

@@ -140,3 +140,29 @@ TEST(Rest, CanBeSwitchedOff)
   column.step(100);
   EXPECT_FALSE(column.report.at_rest);
 }
+
+// A grain in mid-water that a slow stream carries along, less in a step than rest looks at: it touches nothing.
+TEST(Rest, WhatTouchesNothingDoesNotSleep)
+{
+  const double   u = 1e-6, drag = 1e-3; // [m/s], [N s/m^2] of a grain of 1 kg/m: far slower than 4e-4 g allows
+  GrainArrays    grains;
+  GrainLoads     loads;
+  ContactStepper stepper;
+  ContactReport  report;
+  stepper.set_walls({{{{-1., 0.}}, {{1., 0.}}, {}, "floor"}});
+  grains.resize(2);
+  grains.id     = {0, 1};
+  grains.y      = {r, 10. * r};
+  grains.radius = {r, r};
+  grains.mass   = {1., 1.};
+  grains.vx[1]  = u;
+  loads.reset(2);
+  loads.fy[0]   = -g;
+  loads.fx[1]   = drag * u;
+  loads.drag[1] = drag;
+  for (unsigned int k = 0; k < 200; ++k)
+    report = stepper.advance(grains, loads, dt, {{0., -g}});
+  EXPECT_FALSE(report.at_rest);
+  EXPECT_NEAR(grains.x[1] / (u * 200 * dt), 1., 1e-9);
+  EXPECT_EQ(grains.fcx[1], 0.);
+}

@@ -2,6 +2,7 @@
 
 #include <alluvium/grains/contact_report.h>
 #include <alluvium/grains/grain_arrays.h>
+#include <alluvium/grains/periodicity.h>
 
 #include <cstdint>
 #include <vector>
@@ -28,6 +29,9 @@ namespace alluvium::grains
 
     /** Steps without change before the grains are taken to rest; 0: they never are. */
     unsigned int steps = 10;
+
+    /** Of the box: a grain that crosses its seam has not moved by its length. */
+    Periodicity periodicity;
 
     /** Whether @p grains may stay as they are under @p loads. */
     bool holds(const GrainArrays &grains, const GrainLoads &loads, const Scales &scales) const;
