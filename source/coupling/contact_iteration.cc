@@ -86,17 +86,19 @@ namespace alluvium::coupling
       start = contacts.memory();
     for (n = 0;; ++n)
       {
-        Answer       answer = move(grains, loads, dt, gravity, haste);
-        const double defect = root_mean_square(answer.unseen);
-        n_stalled           = defect > 0.7 * best ? n_stalled + 1 : 0;
-        best                = std::min(best, defect);
-        agree               = !tries || agrees(answer, n == 0 ? 0.1 * limit.tolerance : limit.tolerance);
+        Answer       answer    = move(grains, loads, dt, gravity, haste);
+        const double defect    = root_mean_square(answer.unseen);
+        n_stalled              = defect > 0.7 * best ? n_stalled + 1 : 0;
+        best                   = std::min(best, defect);
+        const double tolerance = n == 0 ? 0.1 * limit.tolerance : limit.tolerance;
+        agree                  = !tries || agrees(answer, tolerance);
         if (agree || n_stalled == 2 || n == limit.largest_number)
           {
             if (answer.report.hasty)
               {
                 contacts.restore(start);
                 answer = move(grains, loads, dt, gravity, 1.);
+                agree  = agrees(answer, tolerance); // hasty only if the step may be repeated
               }
             coupling.set_unseen_force(answer.unseen);
             grains = std::move(answer.grains);

@@ -5,20 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace alluvium::coupling
 {
   using namespace dealii;
-
-  namespace
-  {
-    /** Grains whose velocity is known. */
-    std::unique_ptr<TimeScheme> frozen_scheme()
-    {
-      return Registry<TimeScheme>::entries().at("implicit drag").create();
-    }
-  } // namespace
-
 
   Coupling::Coupling(const fluid::FluidSpace<dim> &space, fluid::VansSolver<dim> &solver)
     : space(&space)
@@ -127,8 +118,7 @@ namespace alluvium::coupling
     find_state(state);
 
     // grains that cannot move need no prediction
-    const auto              frozen = frozen_scheme();
-    const TimeScheme       &scheme = fixed ? *frozen : scheme_choice.get();
+    const TimeScheme       &scheme = fixed ? frozen_scheme() : scheme_choice.get();
     fluid::VansProblem<dim> problem{};
     problem.dt = dt;
     solve(boundary_conditions, scheme, problem, state);
@@ -136,6 +126,8 @@ namespace alluvium::coupling
     still = same_boundary_values && last.n_iterations == 0;
     if (still)
       last_inputs = inputs();
+    last.n_iterations += std::exchange(of_rebalance.n_iterations, 0);
+    last.n_loose += std::exchange(of_rebalance.n_loose, 0);
   }
 
 
@@ -214,7 +206,9 @@ namespace alluvium::coupling
     problem.inertia          = &inertia;
     problem.stabilisation_dt = dt;
     problem.tolerance_factor = 1. / factor; // what the solver leaves is an acceleration, too: that of a step of dt
-    solve(boundary_conditions, *frozen_scheme(), problem, state);
+    solve(boundary_conditions, frozen_scheme(), problem, state);
+    of_rebalance.n_iterations += last.n_iterations;
+    of_rebalance.n_loose += last.n_loose;
     if (!is_slow)
       {
         // the pressure that did away with what interpolation left is not that of the flow
@@ -347,8 +341,9 @@ namespace alluvium::coupling
     loads.spin_drag      = std::move(torques.spin_drag);
 
     // what the fluid saw
-    const auto &exchange = map.terms().exchange;
-    double      sum      = 0.;
+    const auto                              &exchange = map.terms().exchange;
+    double                                   sum      = 0.;
+    const std::vector<std::array<double, 2>> shift    = periodic_shifts(state);
     for (std::size_t k = 0; k < state.n_pieces(); ++k)
       {
         const auto        &x = exchange[k];
@@ -357,12 +352,37 @@ namespace alluvium::coupling
         const auto         f   = piece_force(state, k).force;
         const auto        &arm = map.arms()[k].arm;
         const auto        &c   = map.arms()[k].moments;
-        sum += area * ((state.grains.x[g] + arm[0]) * f[1] - (state.grains.y[g] + arm[1]) * f[0]);
+        sum += area *
+               ((state.grains.x[g] + arm[0] + shift[k][0]) * f[1] - (state.grains.y[g] + arm[1] + shift[k][1]) * f[0]);
         sum += (1. - b) * couple(state, k, state.latest_gradient[k]) - area * state.gamma[k] * x.omega * (c[0] + c[2]);
         if (x.reference)
           sum += b * couple(state, k, x.reference == 1 ? state.old_gradient[k] : state.before_latest_gradient[k]);
       }
     last.torque_on_grains = Utilities::MPI::sum(sum, space->communicator());
+  }
+
+
+  std::vector<std::array<double, 2>> Coupling::periodic_shifts(const CouplingState &state) const
+  {
+    std::vector<std::array<double, 2>> result(state.n_pieces(), {{0., 0.}});
+    const auto                         box   = space->periodic_box();
+    const unsigned int                 n     = space->n_nodes_per_cell();
+    const auto                        &begin = map.terms().begin;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (box.length[d] > 0.)
+        for (unsigned int c = 0; c < space->cells().size(); ++c)
+          {
+            double middle = 0.;
+            for (unsigned int v = 0; v < n; ++v)
+              middle += space->cells()[c].vertex[v][d] / n;
+            for (unsigned int k = begin[c]; k < begin[c + 1]; ++k)
+              {
+                const unsigned int g        = map.grain()[k];
+                const double       position = (d == 0 ? state.grains.x[g] : state.grains.y[g]) + map.arms()[k].arm[d];
+                result[k][d]                = box.length[d] * std::round((middle - position) / box.length[d]);
+              }
+          }
+    return result;
   }
 
 

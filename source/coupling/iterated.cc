@@ -10,7 +10,7 @@ namespace alluvium::coupling
      * The semi-implicit scheme per grain, repeated with what the contacts made of it (ContactIteration) where the
      * velocities that the fluid saw are not those that the grains take.
      */
-    class Iterated : public TimeScheme
+    class Iterated : public TimeScheme, public Composite<TimeScheme>
     {
     public:
       void add_parameters(dealii::ParameterHandler &prm) override
@@ -41,19 +41,20 @@ namespace alluvium::coupling
                           const unsigned int                    sweep,
                           std::vector<fluid::PieceExchange<2>> &exchange) const override
       {
-        once->exchange_terms(state, sweep, exchange);
+        once().exchange_terms(state, sweep, exchange);
       }
 
       void loads(const CouplingState                      &state,
                  const std::vector<std::array<double, 2>> &force,
                  grains::GrainLoads                       &loads) const override
       {
-        once->loads(state, force, loads);
+        once().loads(state, force, loads);
       }
 
     private:
-      std::unique_ptr<TimeScheme> once = Registry<TimeScheme>::entries().at("semi-implicit per grain").create();
-      Repetition                  limit{10, 1e-2};
+      TimeScheme &once() const { return part("semi-implicit per grain"); }
+
+      Repetition limit{10, 1e-2};
     };
   } // namespace
 

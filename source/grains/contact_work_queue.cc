@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 namespace alluvium::grains
 {
@@ -16,13 +15,9 @@ namespace alluvium::grains
    * in which little happens, in few places. Where much happens, or the queue does not run dry soon, the accelerated
    * Gauss-Seidel takes over at once.
    */
-  class WorkQueue : public ContactSolver
+  class WorkQueue : public ContactSolver, public Composite<ContactSolver>
   {
   public:
-    WorkQueue()
-      : full(Registry<ContactSolver>::entries().at("accelerated Gauss-Seidel").create())
-    {}
-
     void add_parameters(dealii::ParameterHandler &prm) override
     {
       prm.add_parameter("Largest queue",
@@ -85,7 +80,7 @@ namespace alluvium::grains
             break;
         }
       problem.discs                = free;
-      const ContactSolution others = full->solve(problem, tolerance);
+      const ContactSolution others = part("accelerated Gauss-Seidel").solve(problem, tolerance);
       solution = {others.converged, solution.sweeps + others.sweeps, others.residual, others.violation};
       return solution;
     }
@@ -95,8 +90,6 @@ namespace alluvium::grains
 
     double largest_queue = 0.2;
     double threshold     = 0.3;
-
-    std::unique_ptr<ContactSolver> full;
 
     mutable std::vector<std::uint8_t>  waiting;
     mutable std::vector<std::uint32_t> begin, neighbour; // contacts that share a disc with contact k

@@ -164,6 +164,47 @@ namespace
     EXPECT_GT(momentum_not_received("semi-implicit per grain"), 1e-2);
   }
 
+  // Whether a step agrees is said of what is kept, not of the loose solve of contacts before it.
+  TEST(Iterated, AgreementIsThatOfTheTightSolve)
+  {
+    Settings s;
+    s.scheme    = "iterated";
+    s.dt        = tau;
+    s.tolerance = 1e-2;
+    FreeBedSettings f;
+    f.n = 120;
+    FreeBed bed(s, f);
+    bed.set_head(1.5);
+    unsigned int n_tight = 0;
+    for (unsigned int k = 0; k < 40; ++k)
+      {
+        const auto before = bed.grains;
+        bed.step();
+        n_tight += bed.report.hasty ? 0 : bed.iteration.n_repetitions() > 0;
+        coupling::GrainMotion motion{bed.grains.vx, bed.grains.vy, bed.grains.omega};
+        for (std::size_t g = 0; g < before.n(); ++g)
+          {
+            motion.vx[g] = (bed.grains.x[g] - before.x[g]) / s.dt;
+            motion.vy[g] = (bed.grains.y[g] - before.y[g]) / s.dt;
+          }
+        const auto           &c      = bed.channel.coupling;
+        const auto            unseen = c.unseen_force(motion, bed.channel.loads);
+        std::array<double, 2> sum    = {{0., 0.}};
+        double                square = 0.;
+        for (std::size_t i = 0; i < unseen.size(); ++i)
+          {
+            sum[i % 2] += unseen[i];
+            square += unseen[i] * unseen[i];
+          }
+        const double tolerance = bed.iteration.n_repetitions() == 0 ? 0.1 * s.tolerance : s.tolerance;
+        const double ratio     = std::max(std::sqrt(2. * square / unseen.size()) / (tolerance * c.typical_force()),
+                                      std::hypot(sum[0], sum[1]) / (0.1 * tolerance * c.report().force_scale));
+        if (std::abs(ratio - 1.) > 1e-6)
+          EXPECT_EQ(bed.iteration.agrees(), ratio < 1.) << "step " << k << ": " << ratio << " of the tolerance";
+      }
+    EXPECT_GT(n_tight, 0u);
+  }
+
   /** Largest distance between the velocity of a piece, as the fluid saw it, and that of its grain [m/s]. */
   double largest_deviation(const FreeBed &bed, const grains::GrainArrays &before)
   {

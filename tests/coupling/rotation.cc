@@ -225,13 +225,14 @@ TEST(Rotation, AngularThirdLaw)
     }
   for (const std::string scheme : {"explicit", "implicit drag", "semi-implicit per piece", "semi-implicit per grain"})
     for (const bool lumped : {true, false})
-      for (const bool triangles : {false, true})
+      for (const std::string mesh : {"quadrilaterals", "triangles", "periodic in x"})
         {
           bed::Settings s;
           s.scheme    = scheme;
           s.dt        = 1e-5;
           s.lumped    = lumped;
-          s.triangles = triangles;
+          s.triangles = mesh == "triangles";
+          s.periodic  = mesh == "periodic in x";
           s.rotation  = true;
           if (scheme.find("semi") == 0)
             s.added_mass = 0.5;
@@ -242,7 +243,7 @@ TEST(Rotation, AngularThirdLaw)
           channel.coupling.audit();
           const auto &r = channel.coupling.report();
           EXPECT_LT(std::abs(r.torque_on_grains + r.torque_on_fluid), 1e-12 * r.force_scale * b.height)
-            << scheme << " lumped " << lumped << " triangles " << triangles;
+            << scheme << " lumped " << lumped << ", " << mesh;
           EXPECT_GT(std::abs(r.torque_on_grains), 1e-9 * r.force_scale * b.height);
           for (unsigned int k = 0; k < 2; ++k)
             EXPECT_LT(std::abs(r.force_on_grains[k] + r.force_on_fluid[k]), 1e-12 * r.force_scale) << scheme;

@@ -462,3 +462,26 @@ TEST(Solvers, ColdStart)
   for (const Contact &c : cold.problem.contacts)
     ASSERT_LE(std::abs(c.rt), c.friction * c.rn * (1. + 1e-12));
 }
+
+// The solver that the work queue falls back on has the parameters that its own section sets.
+TEST(Solvers, FallbackOfTheWorkQueueHasItsParameters)
+{
+  const auto sweeps = [](const std::string &name, const std::string &fallback_parameter) {
+    PluginChoice<ContactSolver> choice;
+    dealii::ParameterHandler    prm;
+    choice.add_parameters(prm, "Contact solver", "work queue", "");
+    prm.parse_input_from_string(
+      "set Contact solver = " + name + "\nsubsection Contact solver: work queue\nset Largest queue = 0\nend\n" +
+      "subsection Contact solver: accelerated Gauss-Seidel\nset " + fallback_parameter + "\nend\n");
+    Heap             heap(8, 20);
+    ContactTolerance tolerance;
+    tolerance.loose                = 1.;
+    const ContactSolution solution = choice.get().solve(heap.problem, tolerance);
+    EXPECT_TRUE(solution.converged);
+    return solution.sweeps;
+  };
+  for (const std::string parameter : {"Largest momentum = 0.5", "Largest momentum = 0.95"})
+    EXPECT_NEAR(sweeps("work queue", parameter) / (1. + sweeps("accelerated Gauss-Seidel", parameter)), 1., 0.05)
+      << parameter;
+  EXPECT_GT(sweeps("work queue", "Largest momentum = 0.5"), 2 * sweeps("work queue", "Largest momentum = 0.95"));
+}

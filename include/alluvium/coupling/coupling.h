@@ -23,7 +23,7 @@ namespace alluvium::coupling
     double                torque_on_grains = 0., torque_on_fluid = 0.;
     std::array<double, 2> unseen_force = {{0., 0.}}; // sum of Coupling::unseen_force() [N/m]
     std::size_t           n_pieces     = 0;
-    unsigned int          n_iterations = 0;     // linear, over all sweeps
+    unsigned int          n_iterations = 0;     // linear, over all sweeps, and of rebalance() before the step
     bool                  steady       = false; // nothing had changed: all is that of the step before
     unsigned int          n_loose      = 0;     // solves that stopped above the tolerance
   };
@@ -141,7 +141,9 @@ namespace alluvium::coupling
       }
     };
 
-    void find_state(CouplingState &state);
+    /** For grains whose velocity is known. */
+    const TimeScheme &frozen_scheme() const { return scheme_choice.get("implicit drag"); }
+    void              find_state(CouplingState &state);
     /** Mass of all grains over their drag: how fast it brings grains and fluid together [s]. */
     double relaxation_time(const CouplingState &state) const;
     void   find_loads(const TimeScheme &scheme, const CouplingState &state, grains::GrainLoads &loads);
@@ -153,7 +155,9 @@ namespace alluvium::coupling
     void   find_acceleration(CouplingState &state) const;
     void   look_at(const fluid::BlockVector &field, CouplingState &state) const;
     void   find_torques(const CouplingState &state, grains::GrainLoads &loads);
-    void   collect_forces(const CouplingState &state);
+    /** From its grain to the image that was cut, for each piece [m]; with arms only. */
+    std::vector<std::array<double, 2>> periodic_shifts(const CouplingState &state) const;
+    void                               collect_forces(const CouplingState &state);
 
     /** Velocity of a piece as the fluid saw it in the latest sweep [m/s], and the force density on it [N/m^3]. */
     struct PieceForce
@@ -175,6 +179,7 @@ namespace alluvium::coupling
     fluid::Vector                      eps;
     fluid::BlockVector                 latest_sweep;
     CouplingReport                     last, of_void_fraction;
+    CouplingReport                     of_rebalance; // solves for the report of the step that follows
     Inputs                             last_inputs;
     grains::GrainLoads                 last_loads;
     bool                               still = false; // the last step left the fluid as it was

@@ -52,6 +52,37 @@ namespace alluvium
       ::alluvium::Registry<Interface>::add(name, prose, [] { return std::make_unique<Class>(); });                     \
   }
 
+  template <class Interface>
+  class PluginChoice;
+
+  /**
+   * Second base of a plug-in that uses others of its kind. PluginChoice gives it its own instances of them, so that
+   * they have the parameters that the user set in their sections; one made by the Registry alone has defaults.
+   */
+  template <class Interface>
+  class Composite
+  {
+  public:
+    virtual ~Composite() = default;
+
+  protected:
+    /** The plug-in named @p name, which must be registered. */
+    Interface &part(const std::string &name) const
+    {
+      if (const auto it = shared.find(name); it != shared.end())
+        return *it->second;
+      std::unique_ptr<Interface> &instance = own[name];
+      if (!instance)
+        instance = Registry<Interface>::entries().at(name).create();
+      return *instance;
+    }
+
+  private:
+    friend class PluginChoice<Interface>;
+    std::map<std::string, Interface *>                        shared;
+    mutable std::map<std::string, std::unique_ptr<Interface>> own;
+  };
+
   /**
    * One plug-in chosen by name, or several. Declares the choice and a subsection with each registered plug-in's own
    * parameters (a plug-in without parameters leaves no trace), so that --print-parameters shows them all by themselves.
@@ -60,14 +91,18 @@ namespace alluvium
   class PluginChoice
   {
   public:
-    /** Declare parameter @p name with default @p choice and explanation @p prose in the current section of @p prm. */
+    /**
+     * Declare parameter @p name with default @p choice and explanation @p prose in the current section of @p prm. A
+     * second call binds its @p prm to the same instances, with what they have now as defaults.
+     */
     void add_parameters(dealii::ParameterHandler &prm,
                         const std::string        &name,
                         const std::string        &choice,
                         const std::string        &prose,
                         const bool                several = false)
     {
-      selected = choice;
+      if (instances.empty())
+        create_all(choice);
       std::string names, text = prose;
       for (const auto &[key, entry] : Registry<Interface>::entries())
         {
@@ -78,13 +113,11 @@ namespace alluvium
         prm.add_parameter(name, selected, text, dealii::Patterns::MultipleSelection(names));
       else
         prm.add_parameter(name, selected, text, dealii::Patterns::Selection(names));
-      for (const auto &[key, entry] : Registry<Interface>::entries())
+      for (const auto &[key, instance] : instances)
         {
-          auto instance = entry.create();
           prm.enter_subsection(name + ": " + key);
           instance->add_parameters(prm);
           prm.leave_subsection();
-          instances.emplace(key, std::move(instance));
         }
     }
 
@@ -111,5 +144,17 @@ namespace alluvium
   private:
     std::string                                       selected;
     std::map<std::string, std::unique_ptr<Interface>> instances;
+
+    void create_all(const std::string &choice)
+    {
+      selected = choice;
+      for (const auto &[key, entry] : Registry<Interface>::entries())
+        instances.emplace(key, entry.create());
+      for (const auto &[key, instance] : instances)
+        if (auto *const composite = dynamic_cast<Composite<Interface> *>(instance.get()))
+          for (const auto &[other, shared] : instances)
+            if (other != key)
+              composite->shared.emplace(other, shared.get());
+    }
   };
 } // namespace alluvium

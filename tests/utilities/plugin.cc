@@ -1,0 +1,58 @@
+// Plug-ins chosen by name: which instance the parameters reach.
+#include <alluvium/utilities/plugin.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <gtest/gtest.h>
+
+using namespace alluvium;
+using dealii::ParameterHandler;
+
+namespace
+{
+  struct Shape
+  {
+    virtual ~Shape() = default;
+    virtual void   add_parameters(ParameterHandler &) {}
+    virtual double area() const = 0;
+  };
+
+  struct Square : Shape
+  {
+    void   add_parameters(ParameterHandler &prm) override { prm.add_parameter("Side", side, "[m]"); }
+    double area() const override { return side * side; }
+    double side = 1.;
+  };
+
+  ALLUVIUM_REGISTER(Shape, Square, "square", "Of one side.")
+
+  /** Declare the choice in @p prm. */
+  void declare(PluginChoice<Shape> &choice, ParameterHandler &prm)
+  {
+    choice.add_parameters(prm, "Shape", "square", "Which.");
+  }
+
+  void set_side(ParameterHandler &prm, const std::string &side)
+  {
+    prm.enter_subsection("Shape: square");
+    prm.set("Side", side);
+    prm.leave_subsection();
+  }
+} // namespace
+
+// Parameter handlers write into what they are bound to: both of them into the instance that is used.
+TEST(PluginChoice, ASecondHandlerReachesTheInstanceInUse)
+{
+  PluginChoice<Shape> choice;
+  ParameterHandler    first, second;
+  declare(choice, first);
+  set_side(first, "2");
+  EXPECT_EQ(choice.get().area(), 4.);
+  const Shape *const in_use = &choice.get();
+  declare(choice, second);
+  EXPECT_EQ(&choice.get(), in_use);
+  set_side(second, "3");
+  EXPECT_EQ(choice.get().area(), 9.);
+  set_side(first, "5");
+  EXPECT_EQ(choice.get().area(), 25.);
+}
