@@ -232,6 +232,7 @@ namespace alluvium
 
   void Simulation::check(const std::string &parameter_directory)
   {
+    implementation->model.grain_setup.write_nothing();
     run::set_up(implementation->model, parameter_directory, nullptr);
     implementation->output.choose_observers();
     implementation->report_scene();

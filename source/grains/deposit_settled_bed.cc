@@ -77,7 +77,7 @@ namespace alluvium::grains
         "Cache folder",
         cache,
         "Where settled beds are kept, relative to the parameter file, under a name that depends on everything "
-        "that made them. Empty: settle anew every time.");
+        "that made them; not where it cannot be written. Empty: settle anew every time.");
     }
 
     std::vector<Seed> make(const DepositContext &context) const override
@@ -99,11 +99,20 @@ namespace alluvium::grains
                         file = folder + "/settled_bed_" + hash(recipe) + ".csv";
       if (has_comment(file, recipe))
         return checked(read_grain_table(file, context.density), box);
-      std::error_code error;
-      std::filesystem::create_directories(folder, error);
-      check_user(!error, "Cannot make the cache folder '" + folder + "': " + error.message() + ".");
       const auto [seeds, state] = settle(context, box, g);
-      write_grain_table(file, seeds, recipe + describe(state));
+      if (context.may_write)
+        try
+          {
+            std::error_code error;
+            std::filesystem::create_directories(folder, error);
+            check_user(!error, "Cannot make the folder '" + folder + "': " + error.message() + ".");
+            write_grain_table(file, seeds, recipe + describe(state));
+          }
+        catch (const UserError &error)
+          {
+            if (context.warnings)
+              context.warnings->push_back(std::string("The settled bed is not kept for other runs. ") + error.what());
+          }
       return checked(seeds, box);
     }
 

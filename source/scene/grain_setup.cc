@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <sstream>
 
 namespace alluvium::scene
@@ -195,6 +196,7 @@ namespace alluvium::scene
     constexpr unsigned int    n_numbers = 7;
     const std::vector<double> numbers =
       Utilities::MPI::broadcast(communicator, on_first_rank(communicator, [&] {
+                                  std::vector<std::string>        warnings;
                                   const std::vector<grains::Seed> seeds =
                                     deposit.get().make({{{domain.lower()[0], domain.lower()[1]}},
                                                         {{domain.upper()[0], domain.upper()[1]}},
@@ -202,7 +204,11 @@ namespace alluvium::scene
                                                         density,
                                                         gravity,
                                                         directory,
-                                                        domain.periodicity()});
+                                                        domain.periodicity(),
+                                                        may_write,
+                                                        &warnings});
+                                  for (const std::string &warning : warnings)
+                                    std::cerr << "alluvium: warning: " << warning << std::endl;
                                   std::vector<double> flat;
                                   for (const auto &s : seeds)
                                     flat.insert(flat.end(), {s.x, s.y, s.radius, s.density, s.vx, s.vy, s.omega});

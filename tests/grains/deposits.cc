@@ -352,6 +352,28 @@ TEST(Deposits, SettledBedIsReproducibleAndCached)
   std::filesystem::remove_all(c.directory);
 }
 
+// Nothing is written where a scene is only looked at; and where nothing can be, the bed is settled all the same.
+TEST(Deposits, SettledBedWithoutACache)
+{
+  auto c              = context();
+  c.directory         = "/tmp/alluvium_no_cache_" + std::to_string(getpid());
+  const std::string p = "set Number of grains = 50\n";
+  const auto        a = make("settled bed", p + "set Cache folder =\n", c);
+  std::filesystem::create_directories(c.directory);
+  c.may_write = false;
+  EXPECT_TRUE(same(a, make("settled bed", p, c)));
+  EXPECT_TRUE(std::filesystem::is_empty(c.directory));
+
+  std::vector<std::string> warnings;
+  c.may_write = true;
+  c.warnings  = &warnings;
+  std::ofstream(c.directory + "/deposits") << "a file where the folder should be";
+  EXPECT_TRUE(same(a, make("settled bed", p, c)));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("not kept"), std::string::npos) << warnings[0];
+  std::filesystem::remove_all(c.directory);
+}
+
 TEST(Deposits, SettledBedByHeight)
 {
   const auto c     = context();

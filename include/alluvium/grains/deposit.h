@@ -24,12 +24,14 @@ namespace alluvium::grains
   /** What a deposit may know of the scene. */
   struct DepositContext
   {
-    std::array<double, 2>    lower, upper; // bounding box of the domain [m]
-    std::vector<WallSegment> walls;
-    double                   density;          // default grain density [kg/m^3]
-    std::array<double, 2>    gravity;          // [m/s^2]
-    std::string              directory;        // of the parameter file: relative paths start here
-    Periodicity              periodicity = {}; // of the domain
+    std::array<double, 2>     lower, upper; // bounding box of the domain [m]
+    std::vector<WallSegment>  walls;
+    double                    density;               // default grain density [kg/m^3]
+    std::array<double, 2>     gravity;               // [m/s^2]
+    std::string               directory;             // of the parameter file: relative paths start here
+    Periodicity               periodicity = {};      // of the domain
+    bool                      may_write   = true;    // files: caches. Not where a scene is only looked at
+    std::vector<std::string> *warnings    = nullptr; // where to put what the user should know, if anywhere
   };
 
   /**

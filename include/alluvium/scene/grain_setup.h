@@ -32,6 +32,9 @@ namespace alluvium::scene
                              const std::array<double, 2>            &gravity,
                              const std::string                      &directory) const;
 
+    /** Write no files, such as the deposit's cache, when the grains are made. */
+    void write_nothing() { may_write = false; }
+
     bool fixed() const { return fixed_grains; }
     /** Fluid radius over contact radius of the grains made last. */
     double radius_factor() const { return last_factor; }
@@ -43,7 +46,7 @@ namespace alluvium::scene
     PluginChoice<grains::Deposit> deposit;
     double                        density = 2650., factor = 1., packing = 0., overlap_tolerance = 0.01;
     std::string                   mass_follows = "contact radius", extra_walls, wall_motion;
-    bool                          fixed_grains = false;
-    mutable double                last_factor  = 1.;
+    bool                          fixed_grains = false, may_write = true;
+    mutable double                last_factor = 1.;
   };
 } // namespace alluvium::scene
