@@ -24,7 +24,8 @@ namespace alluvium::fluid
       "Names of the symmetry lines: u.n = 0 and no shear, in this formulation the same as a slip wall.");
     prm.add_parameter("Pressure",
                       pressure,
-                      "Boundaries open to a given total pressure [Pa], as `name: expression; name: expression`. An "
+                      "Boundaries open to a given pressure [Pa] (with its hydrostatic part), as `name: expression; "
+                      "name: expression`. An "
                       "expression may use x, y, t "
                       "and the constants rho (fluid density), g (magnitude of gravity), H (height of the domain), L "
                       "(height of the bed at "
@@ -34,6 +35,16 @@ namespace alluvium::fluid
       velocity,
       "Boundaries with a given fluid velocity [m/s], as `name: u_x | u_y; ...`, each component an expression "
       "as under Pressure.");
+    prm.add_parameter(
+      "Pressure on inflow",
+      pressure_on_inflow,
+      "What a given pressure is where the flow enters. `static`: the pressure on the boundary, as if the flow outside "
+      "were as developed as that inside: a stream or a pipe goes on. `total`: p + rho U^2/2, with U^2 the mean of "
+      "u_n^2 "
+      "over what enters: it comes from fluid at rest (a reservoir). What comes back through a boundary by which "
+      "more leaves than enters is taken from fluid at rest in both cases; where flow leaves, it is the static "
+      "pressure.",
+      Patterns::Selection("static|total"));
     prm.add_parameter("Pin pressure",
                       pin_pressure,
                       "In a box closed all around, fix the pressure at one node (its level is arbitrary there).");

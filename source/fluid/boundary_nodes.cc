@@ -65,8 +65,10 @@ namespace alluvium::fluid
     const FiniteElement<dim> &system_fe = space.dof_handler().get_fe(), &scalar_fe = space.nodal_dof_handler().get_fe();
     const unsigned int        n_nodes = space.n_nodes_per_cell();
     const QGauss<dim - 1>     quadrature(2);
-    FEFaceValues<dim>         face_values(
-      space.mapping(), scalar_fe, quadrature, update_values | update_normal_vectors | update_JxW_values);
+    FEFaceValues<dim>         face_values(space.mapping(),
+                                  scalar_fe,
+                                  quadrature,
+                                  update_values | update_gradients | update_normal_vectors | update_JxW_values);
     std::vector<types::global_dof_index> cell_dofs(system_fe.n_dofs_per_cell()), cell_nodes(n_nodes);
 
     unsigned int cell_index = 0;
@@ -116,6 +118,26 @@ namespace alluvium::fluid
                       face.normal_jxw.push_back(face_values.normal_vector(q) * face_values.JxW(q));
                     }
                   inflow.push_back(face);
+                }
+              if (condition.kind == Kind::pressure && cell->is_locally_owned())
+                {
+                  // half a quadrilateral's; of triangles those that touch with a corner add as much as this one
+                  const double  depth = (n_nodes == dim + 1 ? 1. : 0.5) * cell->measure() / cell->face(f)->measure();
+                  OpenFace<dim> face{my_index, id, depth, {}, {}, {}, {}};
+                  for (unsigned int q = 0; q < quadrature.size(); ++q)
+                    {
+                      auto &phi  = face.phi.emplace_back();
+                      auto &grad = face.grad.emplace_back();
+                      for (unsigned int v = 0; v < n_nodes; ++v)
+                        {
+                          phi[v] = face_values.shape_value(v, q);
+                          for (unsigned int d = 0; d < dim; ++d)
+                            grad[v][d] = face_values.shape_grad(v, q)[d];
+                        }
+                      face.normal.push_back(face_values.normal_vector(q));
+                      face.jxw.push_back(face_values.JxW(q));
+                    }
+                  open.push_back(face);
                 }
             }
       }

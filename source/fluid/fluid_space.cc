@@ -134,6 +134,11 @@ namespace alluvium::fluid
   {
     const BoundaryNodes<dim> boundary(*this, boundary_conditions);
     inflow = boundary.inflow;
+    open   = boundary.open;
+    open_ids.clear();
+    for (const auto &[id, condition] : boundary_conditions.all())
+      if (condition.kind == BoundaryConditions<dim>::Kind::pressure)
+        open_ids.push_back(id);
     system_constraints.clear();
     system_constraints.reinit(relevant_all);
     system_constraints.merge(hanging);
@@ -266,10 +271,11 @@ namespace alluvium::fluid
 
   template <int dim>
   template <typename Action>
-  void FluidSpace<dim>::for_each_boundary_value(const BoundaryConditions<dim> &boundary_conditions,
-                                                const Tensor<1, dim>          &hydrostatic_gradient,
-                                                const double                   datum,
-                                                const Action                  &action) const
+  void FluidSpace<dim>::for_each_boundary_value(const BoundaryConditions<dim>              &boundary_conditions,
+                                                const Tensor<1, dim>                       &hydrostatic_gradient,
+                                                const double                                datum,
+                                                const std::map<types::boundary_id, double> &deficits,
+                                                const Action                               &action) const
   {
     const types::global_dof_index first_pressure = partitioners[0]->size();
     for (const PrescribedDof<dim> &b : boundary_dofs)
@@ -278,7 +284,13 @@ namespace alluvium::fluid
         if (b.component == dim)
           {
             if (partitioners[1]->in_local_range(b.dof - first_pressure))
-              action(1, b.dof - first_pressure, value.value(b.point) - hydrostatic_gradient * b.point - datum);
+              {
+                const auto deficit = deficits.find(b.boundary);
+                action(1,
+                       b.dof - first_pressure,
+                       value.value(b.point) - hydrostatic_gradient * b.point - datum -
+                         (deficit == deficits.end() ? 0. : deficit->second));
+              }
           }
         else if (partitioners[0]->in_local_range(b.dof))
           action(0, b.dof, value.value(b.point, b.component));
@@ -287,15 +299,17 @@ namespace alluvium::fluid
 
 
   template <int dim>
-  void FluidSpace<dim>::apply_boundary_values(const BoundaryConditions<dim> &boundary_conditions,
-                                              const Tensor<1, dim>          &hydrostatic_gradient,
-                                              const double                   datum,
-                                              BlockVector                   &field) const
+  void FluidSpace<dim>::apply_boundary_values(const BoundaryConditions<dim>              &boundary_conditions,
+                                              const Tensor<1, dim>                       &hydrostatic_gradient,
+                                              const double                                datum,
+                                              const std::map<types::boundary_id, double> &deficits,
+                                              BlockVector                                &field) const
   {
     field.zero_out_ghost_values();
     for_each_boundary_value(boundary_conditions,
                             hydrostatic_gradient,
                             datum,
+                            deficits,
                             [&](const unsigned int block, const types::global_dof_index dof, const double value) {
                               field.block(block)(dof) = value;
                             });
@@ -305,15 +319,17 @@ namespace alluvium::fluid
 
 
   template <int dim>
-  bool FluidSpace<dim>::has_boundary_values(const BoundaryConditions<dim> &boundary_conditions,
-                                            const Tensor<1, dim>          &hydrostatic_gradient,
-                                            const double                   datum,
-                                            const BlockVector             &field) const
+  bool FluidSpace<dim>::has_boundary_values(const BoundaryConditions<dim>              &boundary_conditions,
+                                            const Tensor<1, dim>                       &hydrostatic_gradient,
+                                            const double                                datum,
+                                            const std::map<types::boundary_id, double> &deficits,
+                                            const BlockVector                          &field) const
   {
     int same = 1;
     for_each_boundary_value(boundary_conditions,
                             hydrostatic_gradient,
                             datum,
+                            deficits,
                             [&](const unsigned int block, const types::global_dof_index dof, const double value) {
                               if (field.block(block)(dof) != value)
                                 same = 0;

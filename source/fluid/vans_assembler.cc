@@ -1,5 +1,6 @@
 #include <alluvium/fluid/cell_mesh_terms.h>
 #include <alluvium/fluid/cell_piece_terms.h>
+#include <alluvium/fluid/open_boundary_terms.h>
 #include <alluvium/fluid/vans_assembler.h>
 
 #include <deal.II/base/utilities.h>
@@ -123,6 +124,29 @@ namespace alluvium::fluid
           constraints.distribute_local_to_global(local_residual, local_dofs, residual);
           if (state.has_pieces())
             constraints.distribute_local_to_global(local_known, local_dofs, known);
+        }
+      const auto backflow = backflow_shares(*space, *problem.old);
+      for (const auto &face : space->open_faces())
+        {
+          const CellData<dim> &cell = space->cells()[face.cell];
+          state.reinit(face.cell);
+          for (auto &row : L)
+            row.fill(0.);
+          b.fill(0.);
+          add_open_face(state, face, backflow.at(face.boundary), L, b);
+          const typename K::Values x = state.values(iterate);
+          for (unsigned int r = 0; r < n; ++r)
+            {
+              local_residual(r) = b[r];
+              local_dofs[r]     = cell.dofs[r];
+              for (unsigned int c = 0; c < n; ++c)
+                {
+                  local_matrix(r, c) = L[r][c];
+                  local_residual(r) -= L[r][c] * x[c];
+                }
+            }
+          constraints.distribute_local_to_global(local_matrix, local_dofs, system_matrix);
+          constraints.distribute_local_to_global(local_residual, local_dofs, residual);
         }
       // prescribed inflow: the boundary term of the continuity equation, with the iterate's boundary values
       for (const auto &face : space->inflow_faces())

@@ -1,6 +1,10 @@
+#include <alluvium/fluid/open_boundary_terms.h>
 #include <alluvium/fluid/vans_solver.h>
 
 #include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
 
 namespace alluvium::fluid
 {
@@ -30,6 +34,15 @@ namespace alluvium::fluid
       discretisation.lumped_drag,
       "Row-sum lump the drag in the momentum equation. Needed for the right flux on meshes finer than a grain; "
       "costs pressure accuracy where drag varies strongly within a cell.");
+    prm.add_parameter(
+      "Open boundary terms",
+      open_boundary_terms,
+      "What is done where the pressure is given, for comparisons (doc/open-boundaries.md). `traction`: viscous "
+      "traction "
+      "of developed flow; `upwinding`: none across the boundary; `advection`: none from outside; `tangential`: flow "
+      "enters at right angles; `backflow`: what comes back loses its kinetic energy. Leave one out and flows that are "
+      "exact or stable are so no longer.",
+      Patterns::MultipleSelection("none|traction|upwinding|advection|tangential|backflow"));
     linear_solver.add_parameters(prm);
     prm.leave_subsection();
   }
@@ -70,12 +83,39 @@ namespace alluvium::fluid
 
 
   template <int dim>
+  std::map<types::boundary_id, double>
+  VansSolver<dim>::pressure_deficits(const BoundaryConditions<dim> &boundary_conditions, const BlockVector &start) const
+  {
+    if (!discretisation.convection || !boundary_conditions.total_pressure_on_inflow())
+      return {};
+    return dynamic_pressures(*space, properties.density, start);
+  }
+
+
+  template <int dim>
+  bool VansSolver<dim>::has_boundary_values(const BoundaryConditions<dim> &boundary_conditions) const
+  {
+    return space->has_boundary_values(boundary_conditions,
+                                      properties.density * gravity,
+                                      pressure_datum,
+                                      pressure_deficits(boundary_conditions, iterate),
+                                      iterate);
+  }
+
+
+  template <int dim>
   void VansSolver<dim>::begin_step(const BoundaryConditions<dim> &boundary_conditions, const VansProblem<dim> &problem)
   {
     current                = problem;
     current.fluid          = properties;
     current.discretisation = discretisation;
-    current.old            = &previous;
+    const auto has         = [&](const std::string &term) {
+      const auto names = Utilities::split_string_list(open_boundary_terms);
+      return std::find(names.begin(), names.end(), term) != names.end();
+    };
+    current.discretisation.open_boundary = {
+      has("traction"), has("upwinding"), has("advection"), has("tangential"), has("backflow")};
+    current.old = &previous;
     if (current.dt > 1.2 * dt_of_preconditioner || current.dt < dt_of_preconditioner / 1.2)
       {
         linear_solver.clear();
@@ -83,7 +123,11 @@ namespace alluvium::fluid
       }
     linear_solver.scales.inertia   = properties.density / current.dt;
     linear_solver.scales.viscosity = properties.viscosity;
-    space->apply_boundary_values(boundary_conditions, properties.density * gravity, pressure_datum, iterate);
+    space->apply_boundary_values(boundary_conditions,
+                                 properties.density * gravity,
+                                 pressure_datum,
+                                 pressure_deficits(boundary_conditions, previous),
+                                 iterate);
   }
 
 

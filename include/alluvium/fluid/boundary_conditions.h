@@ -15,7 +15,7 @@ namespace dealii
 namespace alluvium::fluid
 {
   /**
-   * What happens on each named part of the boundary: wall without slip, wall with slip (= symmetry), given total
+   * What happens on each named part of the boundary: wall without slip, wall with slip (= symmetry), given
    * pressure, or given velocity; the latter two as functions of x and t.
    */
   template <int dim>
@@ -58,9 +58,13 @@ namespace alluvium::fluid
     bool pins_pressure() const { return pin_pressure; }
     void pin(const bool yes) { pin_pressure = yes; }
 
+    /** Are given pressures total ones, p + rho u^2/2, where the flow enters? Static ones otherwise. */
+    bool total_pressure_on_inflow() const { return pressure_on_inflow == "total"; }
+
   private:
     std::string no_slip, slip, symmetric, pressure, velocity;
-    bool        pin_pressure = false;
+    std::string pressure_on_inflow = "static";
+    bool        pin_pressure       = false;
 
     std::map<dealii::types::boundary_id, Condition> conditions;
   };

@@ -33,6 +33,20 @@ namespace alluvium::fluid
     std::vector<dealii::Tensor<1, dim>>             normal_jxw;
   };
 
+  /** A face through which the fluid may go in and out: the pressure is given there. */
+  template <int dim>
+  struct OpenFace
+  {
+    unsigned int               cell;
+    dealii::types::boundary_id boundary;
+    double                     depth; // of the fluid around the face's nodes, normal to it [m]
+
+    std::vector<std::array<double, max_nodes<dim>>>                  phi;  // [quadrature point][node of the cell]
+    std::vector<std::array<std::array<double, dim>, max_nodes<dim>>> grad; // [1/m]
+    std::vector<dealii::Tensor<1, dim>>                              normal;
+    std::vector<double>                                              jxw;
+  };
+
   /**
    * The nodes of the mesh that lie on boundaries, which conditions meet at each of them, and what these ask of its
    * dofs: where a wall meets an inflow, the wall wins; slip walls that meet at a corner hold both components.
@@ -58,6 +72,7 @@ namespace alluvium::fluid
     }
 
     std::vector<InflowFace<dim>> inflow; // of owned cells
+    std::vector<OpenFace<dim>>   open;   // of owned cells
 
   private:
     using Kind = typename BoundaryConditions<dim>::Kind;

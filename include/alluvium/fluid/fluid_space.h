@@ -80,18 +80,21 @@ namespace alluvium::fluid
 
     /**
      * Set @p field's boundary values at the time of @p boundary_conditions, then its hanging nodes. The reduced
-     * pressure is p - rho g.x - @p datum, with @p hydrostatic_gradient = rho g.
+     * pressure is p - rho g.x - @p datum, with @p hydrostatic_gradient = rho g, less what @p deficits say of its
+     * boundary (none if that is not among them) [Pa].
      */
-    void apply_boundary_values(const BoundaryConditions<dim> &boundary_conditions,
-                               const dealii::Tensor<1, dim>  &hydrostatic_gradient,
-                               const double                   datum,
-                               BlockVector                   &field) const;
+    void apply_boundary_values(const BoundaryConditions<dim>                      &boundary_conditions,
+                               const dealii::Tensor<1, dim>                       &hydrostatic_gradient,
+                               const double                                        datum,
+                               const std::map<dealii::types::boundary_id, double> &deficits,
+                               BlockVector                                        &field) const;
 
     /** Has @p field these boundary values already, to the last bit? Collective. */
-    bool has_boundary_values(const BoundaryConditions<dim> &boundary_conditions,
-                             const dealii::Tensor<1, dim>  &hydrostatic_gradient,
-                             const double                   datum,
-                             const BlockVector             &field) const;
+    bool has_boundary_values(const BoundaryConditions<dim>                      &boundary_conditions,
+                             const dealii::Tensor<1, dim>                       &hydrostatic_gradient,
+                             const double                                        datum,
+                             const std::map<dealii::types::boundary_id, double> &deficits,
+                             const BlockVector                                  &field) const;
 
     /**
      * The prescribed p - rho g.x at one node, the same on all ranks: a datum that spares the linear solver large
@@ -137,6 +140,9 @@ namespace alluvium::fluid
     }
 
     const std::vector<InflowFace<dim>> &inflow_faces() const { return inflow; }
+    const std::vector<OpenFace<dim>>   &open_faces() const { return open; }
+    /** Ids of the boundaries with a given pressure, in order, the same on all ranks. */
+    const std::vector<dealii::types::boundary_id> &open_boundaries() const { return open_ids; }
 
     /** Fill a nodal field's hanging nodes by interpolation. */
     void interpolate_hanging_nodes(Vector &nodal_field) const;
@@ -147,10 +153,11 @@ namespace alluvium::fluid
   private:
     /** Call @p action(block, index in the block, value) for all locally owned boundary values. */
     template <typename Action>
-    void for_each_boundary_value(const BoundaryConditions<dim> &boundary_conditions,
-                                 const dealii::Tensor<1, dim>  &hydrostatic_gradient,
-                                 const double                   datum,
-                                 const Action                  &action) const;
+    void for_each_boundary_value(const BoundaryConditions<dim>                      &boundary_conditions,
+                                 const dealii::Tensor<1, dim>                       &hydrostatic_gradient,
+                                 const double                                        datum,
+                                 const std::map<dealii::types::boundary_id, double> &deficits,
+                                 const Action                                       &action) const;
     /** Renumber both handlers: nodes near each other, velocities as their nodes, all pressures after them. */
     void number_by_nodes();
     void make_periodic(const dealii::DoFHandler<dim> &handler, dealii::AffineConstraints<double> &constraints) const;
@@ -174,6 +181,8 @@ namespace alluvium::fluid
     std::vector<PrescribedDof<dim>>                                   boundary_dofs;
     std::map<dealii::types::boundary_id, std::vector<BoundaryWeight>> boundary_weights;
     std::vector<InflowFace<dim>>                                      inflow;
+    std::vector<OpenFace<dim>>                                        open;
+    std::vector<dealii::types::boundary_id>                           open_ids;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner>              nodal_partitioner;
     std::vector<std::shared_ptr<const dealii::Utilities::MPI::Partitioner>> partitioners;

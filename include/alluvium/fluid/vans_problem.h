@@ -10,11 +10,23 @@ namespace alluvium::fluid
     double viscosity = 1e-3;  // dynamic [Pa s]
   };
 
+  /** Terms on boundaries with a given pressure (doc/open-boundaries.md); all are meant to be on. */
+  struct OpenBoundaryTerms
+  {
+    bool traction   = true; // viscous traction eps eta du/dn alone, as in developed flow
+    bool upwinding  = true; // streamline upwinding carries nothing across
+    bool advection  = true; // where flow enters: developed, so without u.n du/dn
+    bool tangential = true; // where flow enters: damped with eps rho |u.n|
+    bool backflow   = true; // what comes back has the given pressure as its total pressure
+  };
+
   /** Switches of the discretisation that charts compare. */
   struct Discretisation
   {
     bool lumped_drag = true; // row-sum lumping of the drag in the momentum equation
     bool convection  = true; // u.grad u and its stabilisation
+
+    OpenBoundaryTerms open_boundary;
   };
 
   /**

@@ -29,10 +29,7 @@ namespace alluvium::fluid
     void begin_step(const BoundaryConditions<dim> &boundary_conditions, const VansProblem<dim> &problem);
 
     /** Has the solution already the boundary values of the new time, to the last bit? Collective. */
-    bool has_boundary_values(const BoundaryConditions<dim> &boundary_conditions) const
-    {
-      return space->has_boundary_values(boundary_conditions, properties.density * gravity, pressure_datum, iterate);
-    }
+    bool has_boundary_values(const BoundaryConditions<dim> &boundary_conditions) const;
 
     /** Assemble and solve with the pieces' present known terms. */
     void solve();
@@ -63,6 +60,9 @@ namespace alluvium::fluid
     BlockVector &old() { return previous; }
     void         set_solution(const BlockVector &field);
 
+    /** The latest problem: valid, as all it points to, until the next step or mesh change. */
+    const VansProblem<dim> &problem() const { return current; }
+
     const LinearSolverReport &last_report() const { return report; }
 
     /**
@@ -85,6 +85,10 @@ namespace alluvium::fluid
     Timers                 timers; // phases "fluid: ..."
 
   private:
+    /** What given total pressures are above static ones, with the flow that the step starts from. Collective. */
+    std::map<dealii::types::boundary_id, double> pressure_deficits(const BoundaryConditions<dim> &boundary_conditions,
+                                                                   const BlockVector             &start) const;
+
     void                  solve_with_new_known_terms();
     void                  solve_increment();
     std::array<double, 2> term_scale() const;
@@ -94,5 +98,6 @@ namespace alluvium::fluid
     BlockVector            iterate, previous, residual, known, increment, product;
     LinearSolverReport     report;
     double                 dt_of_preconditioner = 0., pressure_datum = 0.;
+    std::string            open_boundary_terms = "traction, upwinding, advection, tangential, backflow";
   };
 } // namespace alluvium::fluid

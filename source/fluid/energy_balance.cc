@@ -1,0 +1,242 @@
+#include <alluvium/fluid/cell_mesh_terms.h>
+#include <alluvium/fluid/cell_piece_terms.h>
+#include <alluvium/fluid/energy_balance.h>
+#include <alluvium/fluid/open_boundary_terms.h>
+#include <alluvium/fluid/piece_gradients.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/tensor.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace alluvium::fluid
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim, int n>
+    double product(const LocalVector<dim, n> &x, const LocalMatrix<dim, n> &L, const LocalVector<dim, n> &b)
+    {
+      double sum = 0.;
+      for (unsigned int r = 0; r < x.size(); ++r)
+        {
+          double residual = -b[r];
+          for (unsigned int c = 0; c < x.size(); ++c)
+            residual += L[r][c] * x[c];
+          sum += x[r] * residual;
+        }
+      return sum;
+    }
+
+    /** Fields and gradients where the shape functions are phi. */
+    template <int dim>
+    struct Values
+    {
+      Tensor<1, dim> u, old, grad_p;
+      Tensor<2, dim> grad_u; // [component][direction]
+
+      template <int n>
+      Values(const CellState<dim, n>       &state,
+             const LocalVector<dim, n>     &x,
+             const double                  *phi,
+             const std::array<double, dim> *grad)
+      {
+        for (unsigned int v = 0; v < n; ++v)
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              u[d] += phi[v] * x[v * (dim + 1) + d];
+              old[d] += phi[v] * state.u_start[v][d];
+              grad_p[d] += grad[v][d] * x[v * (dim + 1) + dim];
+              for (unsigned int c = 0; c < dim; ++c)
+                grad_u[c][d] += grad[v][d] * x[v * (dim + 1) + c];
+            }
+      }
+    };
+
+    /** The Galerkin terms of a cell; what the weak form has besides is the stabilisation. */
+    template <int dim, int n>
+    void add_cell(const CellState<dim, n> &state, const LocalVector<dim, n> &x, EnergyBalance &sum)
+    {
+      const VansProblem<dim> &problem = state.problem;
+      const double            rho = problem.fluid.density, eta = problem.fluid.viscosity;
+      double                  galerkin = 0.; // that is neither time nor convection
+      for (unsigned int q = 0; q < state.space.n_q_points(); ++q)
+        {
+          const auto       &phi = state.space.shape_values()[q];
+          const Values<dim> at(state, x, phi.data(), state.cell->grad[q].data());
+          const double      jxw = state.cell->jxw[q], eps = state.value(state.eps, phi), mass = jxw * eps * rho;
+          const double      kinetic = 0.5 * mass * at.u.norm_square(), before = 0.5 * mass * at.old.norm_square();
+          sum.kinetic_energy += kinetic;
+          sum.kinetic_before += before;
+          const double time = 0.5 * mass * (at.u - at.old).norm_square() / problem.dt;
+          sum.time += time;
+          const double viscous = jxw * eps * eta * scalar_product(at.grad_u + transpose(at.grad_u), at.grad_u);
+          sum.viscous += viscous;
+          galerkin += (kinetic - before) / problem.dt + time + viscous;
+          galerkin += jxw * (1. - eps) * (at.grad_p * at.u);
+          const auto streamline = state.advect(state.cell->grad[q], phi);
+          for (unsigned int v = 0; v < n; ++v)
+            for (unsigned int d = 0; d < dim; ++d)
+              galerkin += mass * streamline[v] * x[v * (dim + 1) + d] * at.u[d];
+          if (problem.body_force || problem.mass_source)
+            {
+              Point<dim> place;
+              for (unsigned int v = 0; v < n; ++v)
+                place += phi[v] * state.cell->vertex[v];
+              double power = 0.;
+              if (problem.body_force)
+                for (unsigned int d = 0; d < dim; ++d)
+                  power += jxw * problem.body_force->value(place, d) * at.u[d];
+              if (problem.mass_source)
+                {
+                  double p = 0.;
+                  for (unsigned int v = 0; v < n; ++v)
+                    p += phi[v] * x[v * (dim + 1) + dim];
+                  power += jxw * problem.mass_source->value(place) * p;
+                }
+              sum.body += power;
+              galerkin -= power;
+            }
+        }
+      for (unsigned int k = state.begin; k < state.end; ++k)
+        {
+          const PieceShape<dim>    &s    = problem.solid->shape[k];
+          const PieceExchange<dim> &ex   = problem.solid->exchange[k];
+          const auto                grad = piece_gradients<n>(*state.cell, s.phi);
+          const Values<dim>         at(state, x, s.phi.data(), grad.data());
+          const Vector             *reference = problem.reference[ex.reference];
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              double lag = 0.;
+              if (reference)
+                for (unsigned int v = 0; v < n; ++v)
+                  lag += s.phi[v] * reference->local_element(state.cell->velocity[v][d]);
+              const double solid  = ex.a[d] + ex.gamma * ex.compliance * (at.u[d] - lag) - ex.compliance * at.grad_p[d];
+              const double force  = ex.gamma * (at.u[d] - solid) + ex.e[d]; // without the pressure's
+              const double grains = s.area * (force - at.grad_p[d]) * solid, drag = s.area * force * (at.u[d] - solid);
+              sum.to_grains += grains;
+              sum.drag += drag;
+              // the pressure's part of what the solid receives is in the continuity equation, not in the slip
+              galerkin += grains + drag - s.area * at.grad_p[d] * at.u[d];
+            }
+        }
+      LocalMatrix<dim, n> L{};
+      LocalVector<dim, n> b{};
+      add_mesh(state, L);
+      add_pieces(state, L);
+      known_mesh(state, b);
+      known_pieces(state, b);
+      const double all = product<dim, n>(x, L, b);
+      sum.boundaries += all;
+      sum.stabilisation += all - galerkin;
+    }
+
+    template <int dim, int n>
+    void add_open(const CellState<dim, n>   &state,
+                  const OpenFace<dim>       &face,
+                  const double               backflow,
+                  const LocalVector<dim, n> &x,
+                  EnergyBalance             &sum)
+    {
+      LocalMatrix<dim, n> L{};
+      LocalVector<dim, n> b{};
+      add_open_face(state, face, backflow, L, b);
+      const double taken = product<dim, n>(x, L, b);
+      sum.open += taken;
+      sum.boundaries += taken;
+    }
+
+    /** Kinetic energy that goes out through a face [W/m]. */
+    template <int dim, int n>
+    double carried_out(const CellState<dim, n>                               &state,
+                       const LocalVector<dim, n>                             &x,
+                       const std::vector<std::array<double, max_nodes<dim>>> &phi,
+                       const std::vector<Tensor<1, dim>>                     &normal_jxw)
+    {
+      double sum = 0.;
+      if (!state.problem.discretisation.convection)
+        return sum;
+      for (unsigned int q = 0; q < phi.size(); ++q)
+        {
+          Tensor<1, dim> u, old;
+          for (unsigned int v = 0; v < n; ++v)
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                u[d] += phi[q][v] * x[v * (dim + 1) + d];
+                old[d] += phi[q][v] * state.u_old[v][d];
+              }
+          sum += 0.5 * state.problem.fluid.density * state.value(state.eps, phi[q]) * (old * normal_jxw[q]) *
+                 u.norm_square();
+        }
+      return sum;
+    }
+
+    template <int dim, int n>
+    void add_all(const FluidSpace<dim>  &space,
+                 const VansProblem<dim> &problem,
+                 const BlockVector      &solution,
+                 EnergyBalance          &sum)
+    {
+      CellState<dim, n> state(space, problem);
+      for (unsigned int i = 0; i < space.cells().size(); ++i)
+        {
+          state.reinit(i);
+          add_cell(state, state.values(solution), sum);
+        }
+      const auto backflow = backflow_shares(space, *problem.old);
+      for (const auto &face : space.open_faces())
+        {
+          state.reinit(face.cell);
+          const auto                  x = state.values(solution);
+          std::vector<Tensor<1, dim>> normal_jxw;
+          for (unsigned int q = 0; q < face.jxw.size(); ++q)
+            normal_jxw.push_back(face.normal[q] * face.jxw[q]);
+          add_open(state, face, backflow.at(face.boundary), x, sum);
+          sum.boundaries -= carried_out(state, x, face.phi, normal_jxw);
+        }
+      for (const auto &face : space.inflow_faces())
+        {
+          state.reinit(face.cell);
+          sum.boundaries -= carried_out(state, state.values(solution), face.phi, face.normal_jxw);
+        }
+    }
+  } // namespace
+
+
+  double EnergyBalance::largest() const
+  {
+    double result = 0.;
+    for (const double power : {boundaries, body, to_grains, drag, viscous, stabilisation, time, open})
+      result = std::max(result, std::abs(power));
+    return result;
+  }
+
+
+  template <int dim>
+  EnergyBalance
+  energy_balance(const FluidSpace<dim> &space, const VansProblem<dim> &problem, const BlockVector &solution)
+  {
+    EnergyBalance sum;
+    if (space.n_nodes_per_cell() == dim + 1)
+      add_all<dim, dim + 1>(space, problem, solution, sum);
+    else
+      add_all<dim, (1 << dim)>(space, problem, solution, sum);
+    for (double *x : {&sum.kinetic_energy,
+                      &sum.kinetic_before,
+                      &sum.boundaries,
+                      &sum.body,
+                      &sum.to_grains,
+                      &sum.drag,
+                      &sum.viscous,
+                      &sum.stabilisation,
+                      &sum.time,
+                      &sum.open})
+      *x = Utilities::MPI::sum(*x, space.communicator());
+    return sum;
+  }
+
+
+  template EnergyBalance energy_balance(const FluidSpace<2> &, const VansProblem<2> &, const BlockVector &);
+} // namespace alluvium::fluid
