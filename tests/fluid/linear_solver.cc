@@ -85,7 +85,7 @@ namespace
     {
       BlockVector iterate = jet.space.make_field(), old = jet.space.make_field(), known = jet.space.make_field(),
                   residual = jet.space.make_field();
-      jet.space.apply_boundary_values(jet.bc, Tensor<1, dim>(), 0., iterate);
+      jet.space.apply_boundary_values(jet.bc, Tensor<1, dim>(), 0., {}, iterate);
       iterate.update_ghost_values();
       old.update_ghost_values();
       jet.problem.old = &old;
