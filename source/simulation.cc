@@ -5,18 +5,32 @@
 #include <alluvium/run/run_guard.h>
 #include <alluvium/run/scene_report.h>
 #include <alluvium/run/set_up.h>
+#include <alluvium/scene/declared_parameters.h>
 #include <alluvium/simulation.h>
 #include <alluvium/utilities/divergence.h>
 #include <alluvium/utilities/progress.h>
 #include <alluvium/utilities/signals.h>
+#include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/parameter_handler.h>
 
 #include <iostream>
+#include <sstream>
 
 namespace alluvium
 {
   using namespace dealii;
+
+  namespace
+  {
+    std::string in_digits(const double x)
+    {
+      std::ostringstream text;
+      text << x;
+      return text.str();
+    }
+  } // namespace
+
 
   class Simulation::Implementation
   {
@@ -35,6 +49,7 @@ namespace alluvium
     run::Output output;
 
   private:
+    bool has_ended() const { return model.time >= end_time - 1e-6 * model.time_step; }
     int  advance();
     void step();
     void count_step();
@@ -71,6 +86,10 @@ namespace alluvium
   void Simulation::Implementation::run(const ParameterHandler &prm, const std::string &directory)
   {
     std::unique_ptr<run::Checkpoint> checkpoint;
+    std::vector<std::string>         changes; // of parameters, since the checkpoint
+    const scene::DeclaredParameters  declared(prm);
+    for (const auto &p : declared.parameters())
+      model.parameters.emplace_back(scene::to_string(p.path), p.value);
     {
       // before anything is written: the folder stays as it was if scene or checkpoint are no good
       const auto timer = model.timers.scope("set-up");
@@ -78,8 +97,12 @@ namespace alluvium
         {
           output.make_folder(true);
           checkpoint = std::make_unique<run::Checkpoint>(model.communicator, output.folder().file("checkpoint"));
+          changes    = checkpoint->compare_parameters(model);
         }
       run::set_up(model, directory, checkpoint.get());
+      check_user(!restart || !has_ended(),
+                 "Output/Restart: the checkpoint is of t = " + in_digits(model.time) +
+                   " s, and Time/End time = " + in_digits(end_time) + " s has passed: nothing is left to do.");
       output.choose_observers();
       if (!restart)
         output.make_folder(false);
@@ -87,7 +110,16 @@ namespace alluvium
     }
     report_scene();
     if (restart)
-      checkpoint->resume(output);
+      {
+        if (model.speaks)
+          {
+            std::cout << checkpoint->description(model) << std::endl;
+            for (const auto &change : changes)
+              std::cout << "  changed: " << change << std::endl;
+          }
+        checkpoint->resume(output);
+        guard.resume(checkpoint->saved_state());
+      }
     checkpoint.reset();
     guard.begin(restart);
     try
@@ -116,7 +148,7 @@ namespace alluvium
     Progress              shown(model.communicator, model.time, end_time, style, std::cout);
     int                   signal = 0;
     guard.start();
-    while (signal == 0 && model.time < end_time - 1e-6 * model.time_step)
+    while (signal == 0 && !has_ended())
       {
         try
           {
@@ -173,7 +205,7 @@ namespace alluvium
         m.store.scatter(m.grains);
         m.grains = m.store.gather();
       }
-    m.time = ++m.n_steps * dt;
+    m.time = m.clock.at(++m.n_steps);
   }
 
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace alluvium::coupling
@@ -59,9 +60,9 @@ namespace alluvium::coupling
   void Coupling::reinit()
   {
     map.reinit();
-    still        = false;
-    eps          = space->make_nodal_field();
-    latest_sweep = space->make_field();
+    still = resumes = false;
+    eps             = space->make_nodal_field();
+    latest_sweep    = space->make_field();
   }
 
 
@@ -89,6 +90,42 @@ namespace alluvium::coupling
   }
 
 
+  Coupling::Inputs Coupling::inputs_of(const grains::GrainArrays       &grains,
+                                       const std::vector<std::uint8_t> &touched,
+                                       const double                     dt,
+                                       const bool                       fixed)
+  {
+    return {dt, fixed, {grains.vx, grains.vy, grains.omega, grains.fcx, grains.fcy, grains.mass}, touched};
+  }
+
+
+  void Coupling::save(ByteWriter                      &writer,
+                      const grains::GrainArrays       &grains,
+                      const std::vector<std::uint8_t> &touched,
+                      const double                     dt,
+                      const bool                       fixed) const
+  {
+    writer.put(map.x_of_cut());
+    writer.put(map.y_of_cut());
+    writer.put(outside);
+    writer.put<std::uint8_t>(still && inputs_of(grains, touched, dt, fixed) == last_inputs);
+  }
+
+
+  void Coupling::load(ByteReader &reader, const grains::GrainArrays &grains)
+  {
+    grains::GrainArrays then = grains;
+    then.x                   = reader.get_vector<double>();
+    then.y                   = reader.get_vector<double>();
+    outside                  = reader.get_vector<std::uint8_t>();
+    const bool same          = reader.get<std::uint8_t>() != 0;
+    if (then.x.size() != grains.n() || then.y.size() != grains.n())
+      throw std::runtime_error("The checkpoint has another number of grains.");
+    update_void_fraction(then);
+    resumes = same;
+  }
+
+
   void Coupling::step(const fluid::BoundaryConditions<dim> &boundary_conditions,
                       const grains::GrainArrays            &grains,
                       const std::vector<std::uint8_t>      &touched,
@@ -96,12 +133,10 @@ namespace alluvium::coupling
                       const bool                            fixed,
                       grains::GrainLoads                   &loads)
   {
-    const CouplingReport before = last;
-    const bool           moved  = update_void_fraction(grains);
-    const auto           inputs = [&]() -> Inputs {
-      return {dt, fixed, {grains.vx, grains.vy, grains.omega, grains.fcx, grains.fcy, grains.mass}, touched};
-    };
-    const bool same_boundary_values = solver->has_boundary_values(boundary_conditions);
+    const CouplingReport before               = last;
+    const bool           moved                = update_void_fraction(grains);
+    const auto           inputs               = [&] { return inputs_of(grains, touched, dt, fixed); };
+    const bool           same_boundary_values = solver->has_boundary_values(boundary_conditions);
     if (!moved && same_boundary_values && still && inputs() == last_inputs)
       {
         last        = before;
@@ -126,6 +161,8 @@ namespace alluvium::coupling
     still = same_boundary_values && last.n_iterations == 0;
     if (still)
       last_inputs = inputs();
+    last.steady = resumes && !moved && still;
+    resumes     = false;
     last.n_iterations += std::exchange(of_rebalance.n_iterations, 0);
     last.n_loose += std::exchange(of_rebalance.n_loose, 0);
   }
@@ -173,7 +210,7 @@ namespace alluvium::coupling
                            const double                          share)
   {
     const std::vector<std::uint8_t> touched(grains.n(), 0);
-    still = false;
+    still = resumes = false;
 
     fluid::BlockVector change = solver->old();
     change.zero_out_ghost_values();

@@ -1,4 +1,5 @@
 #include <alluvium/fluid/boundary_nodes.h>
+#include <alluvium/fluid/cell_order.h>
 #include <alluvium/fluid/fluid_space.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -72,10 +73,8 @@ namespace alluvium::fluid
     std::vector<types::global_dof_index> cell_dofs(system_fe.n_dofs_per_cell()), cell_nodes(n_nodes);
 
     unsigned int cell_index = 0;
-    for (const auto &cell : space.dof_handler().active_cell_iterators())
+    for (const auto &cell : ordered_cells(space.dof_handler()))
       {
-        if (cell->is_artificial())
-          continue;
         const unsigned int my_index = cell_index;
         cell_index += cell->is_locally_owned();
         if (!cell->at_boundary())

@@ -1,9 +1,11 @@
 #include <alluvium/fluid/boundary_nodes.h>
+#include <alluvium/fluid/cell_order.h>
 #include <alluvium/fluid/fluid_space.h>
 #include <alluvium/fluid/piece_gradients.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/distributed/tria.h>
 #include <deal.II/dofs/dof_renumbering.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
@@ -100,6 +102,9 @@ namespace alluvium::fluid
   template <int dim>
   void FluidSpace<dim>::number_by_nodes()
   {
+    // Cuthill and McKee's order starts from the one that it finds, which must not depend on the mesh's history
+    if (dynamic_cast<const parallel::distributed::Triangulation<dim> *>(tria))
+      DoFRenumbering::hierarchical(nodal_dofs);
     // the bandwidth of the nodes is that of the unknowns, and found in a fraction of the time
     DoFRenumbering::Cuthill_McKee(nodal_dofs);
     const IndexSet &owned = dofs.locally_owned_dofs(), &owned_nodes = nodal_dofs.locally_owned_dofs();
@@ -162,7 +167,7 @@ namespace alluvium::fluid
         interpolate_hanging_nodes(weight);
         auto        &list       = boundary_weights[id];
         unsigned int cell_index = 0;
-        for (const auto &cell : nodal_dofs.active_cell_iterators())
+        for (const auto &cell : ordered_cells(nodal_dofs))
           if (cell->is_locally_owned())
             {
               cell->get_dof_indices(cell_nodes);
@@ -191,7 +196,7 @@ namespace alluvium::fluid
     std::vector<types::global_dof_index> cell_dofs(system_fe->n_dofs_per_cell()), cell_nodes(n_nodes);
     cell_data.clear();
     volumes = make_nodal_field();
-    for (const auto &cell : dofs.active_cell_iterators())
+    for (const auto &cell : ordered_cells(dofs))
       if (cell->is_locally_owned())
         {
           const auto nodal = nodal_cell(cell);

@@ -94,6 +94,39 @@ namespace alluvium::fluid
       }
     };
 
+    /** Call @p action(values, their number) for each block of @p matrix; they are one after the other in memory. */
+    template <typename Action>
+    void for_each_block(const TrilinosWrappers::BlockSparseMatrix &matrix, const Action &action)
+    {
+      for (unsigned int a = 0; a < 2; ++a)
+        for (unsigned int b = 0; b < 2; ++b)
+          {
+            const Epetra_CrsMatrix &rows  = matrix.block(a, b).trilinos_matrix();
+            int                    *begin = nullptr, *column = nullptr;
+            double                 *value = nullptr;
+            if (rows.NumMyNonzeros() == 0)
+              continue;
+            AssertThrow(rows.ExtractCrsDataPointers(begin, column, value) == 0, ExcInternalError());
+            action(value, rows.NumMyNonzeros());
+          }
+    }
+
+    std::vector<double> values_of(const TrilinosWrappers::BlockSparseMatrix &matrix)
+    {
+      std::vector<double> all;
+      for_each_block(matrix, [&](const double *value, const int n) { all.insert(all.end(), value, value + n); });
+      return all;
+    }
+
+    void set_values(const std::vector<double> &all, TrilinosWrappers::BlockSparseMatrix &matrix)
+    {
+      auto next = all.begin();
+      for_each_block(matrix, [&](double *value, const int n) {
+        std::copy(next, next + n, value);
+        next += n;
+      });
+    }
+
     /** Sums of the absolute values of the owned rows. */
     std::vector<double> absolute_row_sums(const Epetra_CrsMatrix &rows)
     {
@@ -166,6 +199,36 @@ namespace alluvium::fluid
     coarse_velocity.clear();
     pressure.clear();
     schur.reset();
+    built_from.clear();
+  }
+
+
+  void LinearSolver::save(ByteWriter &writer) const
+  {
+    writer.put<std::uint8_t>(exists);
+    writer.put<std::uint8_t>(convective);
+    writer.put(n_when_fresh);
+    writer.put(inertia_then);
+    writer.put(viscosity_then);
+    writer.put(exists ? built_from : std::vector<double>());
+  }
+
+
+  void LinearSolver::load(ByteReader &reader, TrilinosWrappers::BlockSparseMatrix &matrix)
+  {
+    clear();
+    const bool existed             = reader.get<std::uint8_t>() != 0;
+    convective                     = reader.get<std::uint8_t>() != 0;
+    n_when_fresh                   = reader.get<unsigned int>();
+    scales.inertia                 = reader.get<double>();
+    scales.viscosity               = reader.get<double>();
+    const std::vector<double> then = reader.get_vector<double>();
+    if (Utilities::MPI::min(int(existed && then.size() == values_of(matrix).size()), matrix.get_mpi_communicator()) ==
+        0)
+      return;
+    set_values(then, matrix);
+    build(matrix, RowSums(matrix.block(0, 0), scales));
+    fresh = false;
   }
 
 
@@ -214,8 +277,11 @@ namespace alluvium::fluid
     data.smoother_sweeps       = convective ? 2 : 1;
     data.smoother_overlap = !convective; // as many iterations on two ranks as on one; on the velocity it would do harm
     pressure.initialize(*schur, data);
-    exists = true;
-    fresh  = true;
+    exists         = true;
+    fresh          = true;
+    built_from     = values_of(matrix);
+    inertia_then   = scales.inertia;
+    viscosity_then = scales.viscosity;
   }
 
 

@@ -222,5 +222,21 @@ namespace alluvium::fluid
   }
 
 
+  template <int dim>
+  void VansSolver<dim>::save_history(ByteWriter &writer) const
+  {
+    writer.put(dt_of_preconditioner);
+    linear_solver.save(writer);
+  }
+
+
+  template <int dim>
+  void VansSolver<dim>::load_history(ByteReader &reader)
+  {
+    dt_of_preconditioner = reader.get<double>();
+    linear_solver.load(reader, assembler.matrix());
+  }
+
+
   template class VansSolver<2>;
 } // namespace alluvium::fluid

@@ -12,7 +12,7 @@ namespace alluvium::grains
     /** Whether there is anything to remember. */
     bool is_known(const ContactPair &p)
     {
-      return p.rn != 0. || p.bonded;
+      return p.rn != 0. || p.rt != 0. || p.rr != 0. || p.bonded;
     }
 
     std::size_t n_known(const std::vector<ContactPair> &pairs)
@@ -48,6 +48,7 @@ namespace alluvium::grains
     n_owned     = grains.n();
     this->skin  = skin;
     searched    = true;
+    record      = {true, grains.x, grains.y, geometry.walls.positions(), skin, skin};
     carry(grains, pairs.discs, false);
     carry(grains, pairs.walls, true);
     pending    = {};
@@ -64,6 +65,22 @@ namespace alluvium::grains
     searched_x    = grains.x;
     searched_y    = grains.y;
     this->n_owned = n_owned;
+  }
+
+  ContactSearchRecord ContactNeighbours::last_search() const
+  {
+    if (!searched)
+      return {};
+    ContactSearchRecord result = record;
+    result.left                = skin;
+    return result;
+  }
+
+  void
+  ContactNeighbours::repeat(const ContactSearchRecord &last, const GrainArrays &grains, const ContactGeometry &geometry)
+  {
+    search(grains, geometry, last.skin);
+    skin = last.left;
   }
 
   void ContactNeighbours::carry(const GrainArrays &grains, std::vector<ContactPair> &found, const bool wall) const

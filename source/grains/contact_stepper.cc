@@ -55,6 +55,7 @@ namespace alluvium::grains
     void forget()
     {
       work.neighbours.forget();
+      work.repeat_search({});
       rest.forget();
     }
 
@@ -95,6 +96,7 @@ namespace alluvium::grains
     const Cohesion *const cohesion  = acting_cohesion();
     materials.law                   = acting_law();
     const ContactScales scales      = make_scales(grains, gravity);
+    work.repeat_search(grains, loads, shares(n));
     if (model == "soft-sphere")
       {
         check_user(!materials.rolls && !materials.law && !cohesion,
@@ -265,6 +267,30 @@ namespace alluvium::grains
   {
     implementation->work.geometry.walls.place(archive.wall_positions);
     implementation->work.neighbours.set_archive(std::move(archive));
+    implementation->work.repeat_search({});
     implementation->rest.forget();
+  }
+
+  void ContactStepper::save(ByteWriter &writer) const
+  {
+    const ContactSearchRecord last = implementation->work.last_search();
+    writer.put<std::uint8_t>(last.known);
+    for (const auto *values : {&last.x, &last.y, &last.wall_positions})
+      writer.put(*values);
+    writer.put(last.skin);
+    writer.put(last.left);
+    implementation->rest.save(writer);
+  }
+
+  void ContactStepper::load(ByteReader &reader)
+  {
+    ContactSearchRecord last;
+    last.known = reader.get<std::uint8_t>() != 0;
+    for (auto *values : {&last.x, &last.y, &last.wall_positions})
+      *values = reader.get_vector<double>();
+    last.skin = reader.get<double>();
+    last.left = reader.get<double>();
+    implementation->work.repeat_search(std::move(last));
+    implementation->rest.load(reader);
   }
 } // namespace alluvium::grains

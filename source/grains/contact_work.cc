@@ -50,6 +50,27 @@ namespace alluvium::grains
     return neighbours.slack(grains(), geometry.periodicity, communicator());
   }
 
+  void ContactWork::repeat_search(GrainArrays &all_now, const GrainLoads &loads_now, const bool sharing)
+  {
+    if (!to_repeat.known)
+      return;
+    const ContactSearchRecord last = std::move(to_repeat);
+    to_repeat                      = {};
+    set_shared(sharing);
+    GrainArrays then                = all_now;
+    then.x                          = last.x;
+    then.y                          = last.y;
+    const std::vector<double> walls = geometry.walls.positions();
+    geometry.walls.place(last.wall_positions);
+    neighbours.repeat(last, then, geometry);
+    if (shared)
+      {
+        ContactCandidates mine = share->divide(then, loads_now, neighbours.pairs, neighbours.n_colours);
+        neighbours.keep(std::move(mine), share->grains, share->n_owned());
+      }
+    geometry.walls.place(walls);
+  }
+
   void ContactWork::search(const double skin)
   {
     if (!shared)

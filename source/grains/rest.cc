@@ -102,4 +102,53 @@ namespace alluvium::grains
         last_touched = touched;
       }
   }
+
+
+  void Rest::save(ByteWriter &writer) const
+  {
+    writer.put(n_quiet);
+    writer.put(id);
+    for (const auto *values : {&x, &y, &fx, &fy})
+      writer.put(*values);
+    writer.put(last_touched);
+    // of the report, what stand_still() takes from it
+    writer.put<std::uint64_t>(last_report.wall_force.size());
+    for (const auto &[name, force] : last_report.wall_force)
+      {
+        writer.put(name);
+        writer.put(force[0]);
+        writer.put(force[1]);
+      }
+    writer.put(last_report.n_quiet);
+    writer.put(last_report.n_contacts);
+    writer.put(last_report.n_unconverged);
+    writer.put(last_report.residual);
+    writer.put(last_report.violation);
+    writer.put(last_report.max_penetration);
+    writer.put(last_report.mean_penetration);
+  }
+
+
+  void Rest::load(ByteReader &reader)
+  {
+    n_quiet = reader.get<unsigned int>();
+    id      = reader.get_vector<GrainId>();
+    for (auto *values : {&x, &y, &fx, &fy})
+      *values = reader.get_vector<double>();
+    last_touched = reader.get_vector<std::uint8_t>();
+    last_report  = {};
+    for (auto n = reader.get<std::uint64_t>(); n > 0; --n)
+      {
+        auto &force = last_report.wall_force[reader.get_string()];
+        force[0]    = reader.get<double>();
+        force[1]    = reader.get<double>();
+      }
+    last_report.n_quiet          = reader.get<unsigned int>();
+    last_report.n_contacts       = reader.get<unsigned int>();
+    last_report.n_unconverged    = reader.get<unsigned int>();
+    last_report.residual         = reader.get<double>();
+    last_report.violation        = reader.get<double>();
+    last_report.max_penetration  = reader.get<double>();
+    last_report.mean_penetration = reader.get<double>();
+  }
 } // namespace alluvium::grains

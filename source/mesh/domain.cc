@@ -272,7 +272,10 @@ namespace alluvium::mesh
 
   template <int dim>
   std::unique_ptr<Triangulation<dim>>
-  Domain<dim>::make_triangulation(const double cell_size, const bool never_refines, const CellWeights &weights) const
+  Domain<dim>::make_triangulation(const double                            cell_size,
+                                  const bool                              never_refines,
+                                  const CellWeights                      &weights,
+                                  const std::vector<types::subdomain_id> &owners) const
   {
     const auto box  = periodicity();
     const auto make = [&](Triangulation<dim> &triangulation) {
@@ -285,7 +288,13 @@ namespace alluvium::mesh
       {
         using Shared    = parallel::shared::Triangulation<dim>;
         auto result     = std::make_unique<Shared>(communicator, Shared::none, true, Shared::partition_custom_signal);
-        auto connection = result->signals.create.connect([&] { partition_by_bisection(*result, weights); });
+        auto connection = result->signals.create.connect([&] {
+          if (owners.size() != result->n_active_cells())
+            partition_by_bisection(*result, weights);
+          else
+            for (const auto &cell : result->active_cell_iterators())
+              cell->set_subdomain_id(owners[cell->active_cell_index()]);
+        });
         make(*result);
         connection.disconnect(); // it knows the weights, which may go
         check_partition(*result);

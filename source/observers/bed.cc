@@ -1,5 +1,7 @@
 #include <alluvium/observers/observer.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -46,6 +48,9 @@ namespace alluvium::observers
       }
 
       void conclude(Summary &summary) const override { summary.set("bed/final_height_m", height); }
+
+      void save(nlohmann::ordered_json &state) const override { state = height; }
+      void load(const nlohmann::ordered_json &state) override { height = state.get<double>(); }
 
     private:
       double height = 0.;

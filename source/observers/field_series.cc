@@ -82,6 +82,8 @@ namespace alluvium::observers
     entries.clear();
     for (const auto &entry : state)
       entries.push_back({entry.at(0), entry.at(1), entry.at(2)});
+    if (!entries.empty() && Utilities::MPI::this_mpi_process(communicator) == 0)
+      write_list(); // without what came after the checkpoint
   }
 
 

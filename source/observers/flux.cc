@@ -1,5 +1,7 @@
 #include <alluvium/observers/observer.h>
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <map>
 
@@ -40,6 +42,9 @@ namespace alluvium::observers
         for (const auto &[name, flux] : last)
           summary.set("flux/" + name + "_m2_per_s", flux);
       }
+
+      void save(nlohmann::ordered_json &state) const override { state = last; }
+      void load(const nlohmann::ordered_json &state) override { last = state.get<decltype(last)>(); }
 
     private:
       static std::map<dealii::types::boundary_id, std::string> open_boundaries(const Snapshot &s)

@@ -33,21 +33,20 @@ namespace alluvium::observers
       {
         if (!s.mesh_change || s.mesh_change->time == last_time)
           return;
-        const MeshChange &change = *s.mesh_change;
-        last_time                = change.time;
-        is_new                   = true;
+        change    = *s.mesh_change;
+        last_time = change.time;
+        is_new    = true;
         ++n_changes;
         if (change.before.solid_volume > 0.)
           solid_volume = std::max(solid_volume, std::abs(change.after.solid_volume / change.before.solid_volume - 1.));
         mass_residual = std::max(mass_residual, change.after.mass_residual);
       }
 
-      void write(const Snapshot &s, Statistics &statistics) override
+      void write(const Snapshot &, Statistics &statistics) override
       {
         if (!is_new)
           return;
-        is_new                   = false;
-        const MeshChange &change = *s.mesh_change;
+        is_new = false;
         statistics.set("mesh_change_cells_before", double(change.n_cells_before));
         statistics.set("mesh_change_cells", double(change.n_cells));
         statistics.set("mesh_change_share", change.share);
@@ -73,7 +72,16 @@ namespace alluvium::observers
 
       void save(nlohmann::ordered_json &state) const override
       {
-        state = {n_changes, last_time, solid_volume, mass_residual};
+        state = {n_changes,
+                 last_time,
+                 solid_volume,
+                 mass_residual,
+                 is_new,
+                 change.n_cells_before,
+                 change.n_cells,
+                 change.share};
+        for (const auto *totals : {&change.before, &change.interpolated, &change.after})
+          state.push_back({totals->solid_volume, totals->momentum[0], totals->momentum[1], totals->mass_residual});
       }
 
       void load(const nlohmann::ordered_json &state) override
@@ -82,12 +90,28 @@ namespace alluvium::observers
         last_time     = state.at(1).get<double>();
         solid_volume  = state.at(2).get<double>();
         mass_residual = state.at(3).get<double>();
+
+        is_new                = state.at(4).get<bool>();
+        change.n_cells_before = state.at(5).get<decltype(change.n_cells_before)>();
+        change.n_cells        = state.at(6).get<decltype(change.n_cells)>();
+        change.share          = state.at(7).get<double>();
+        unsigned int i        = 8;
+        for (auto *totals : {&change.before, &change.interpolated, &change.after})
+          {
+            const auto &of        = state.at(i++);
+            *totals               = {};
+            totals->solid_volume  = of.at(0).get<double>();
+            totals->momentum[0]   = of.at(1).get<double>();
+            totals->momentum[1]   = of.at(2).get<double>();
+            totals->mass_residual = of.at(3).get<double>();
+          }
       }
 
     private:
       static constexpr std::array<const char *, 3> stages = {{"before", "interpolated", "after"}};
 
       unsigned int n_changes = 0;
+      MeshChange   change;            // the latest
       bool         is_new    = false; // no row has told of it yet
       double       last_time = -1., solid_volume = 0., mass_residual = 0.;
     };

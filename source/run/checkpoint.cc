@@ -2,16 +2,27 @@
 #include <alluvium/run/checkpoint.h>
 #include <alluvium/run/model.h>
 #include <alluvium/run/output.h>
+#include <alluvium/run/restart_parameters.h>
 #include <alluvium/utilities/checked_file.h>
 #include <alluvium/utilities/user_error.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/grid/tria.h>
 
 #include <filesystem>
+#include <map>
+#include <sstream>
+#include <stdexcept>
 
 namespace alluvium::run
 {
+  using namespace dealii;
   namespace fs = std::filesystem;
+
+  namespace
+  {
+    const std::string history_file = "history", solver_file = "solver";
+  } // namespace
 
   void Checkpoint::write(const std::string &folder, Model &m, const Output &output)
   {
@@ -33,21 +44,36 @@ namespace alluvium::run
       }
     MPI_Barrier(m.communicator);
     grains::save_grains(m.communicator, folder_new + "/grains", m.grains, m.contacts.archive());
-    // the run that goes on and the one that restarts shall both begin with a new contact search ...
-    m.contacts.forget_search();
+    ByteWriter history;
+    (m.has_fluid ? mesh::Partition::of(*m.triangulation) : mesh::Partition()).save(history);
+    history.put(m.touched);
+    m.contacts.save(history);
     nlohmann::ordered_json state;
     if (m.has_fluid)
       {
+        m.coupling.save(history, m.grains, m.touched, m.time_step, !m.grains_move);
         mesh::FluidCheckpoint<Model::dim>(folder_new)
           .save(m.space.dof_handler(), {&m.solver.solution(), &m.solver.old()}, m.space.nodal_dof_handler(), {});
-        // ... with a fresh preconditioner, and with all grains cut anew
-        m.solver.linear_solver.clear();
-        m.coupling.forget_positions();
+        ByteWriter mine;
+        m.solver.save_history(mine);
+        ByteWriter of_all;
+        for (const std::string &bytes : Utilities::MPI::gather(m.communicator, mine.bytes))
+          of_all.put(bytes);
+        write_checked_file(m.communicator, folder_new + "/" + solver_file, solver_file, of_all.bytes);
       }
-    state["time"]   = m.time;
-    state["steps"]  = m.n_steps;
-    state["datum"]  = m.solver.datum();
-    state["counts"] = m.counts;
+    write_checked_file(m.communicator, folder_new + "/" + history_file, history_file, history.bytes);
+    state["time"]          = m.time;
+    state["steps"]         = m.n_steps;
+    state["clock"]         = {m.clock.since, m.clock.n_steps, m.clock.dt};
+    state["ranks"]         = Utilities::MPI::n_mpi_processes(m.communicator);
+    state["datum"]         = m.solver.datum();
+    state["counts"]        = m.counts;
+    state["coarse size"]   = m.coarse_size;
+    state["never refines"] = m.never_refines;
+    for (const auto &c : m.initial_bed.columns)
+      state["initial bed"].push_back({c.left, c.right, c.bottom, c.top});
+    for (const auto &[name, value] : m.parameters)
+      state["parameters"][name] = value;
     if (m.speaks)
       save_output(state);
     write_checked_file(m.communicator, folder_new + "/state", "state", m.speaks ? state.dump(1) : "");
@@ -66,46 +92,100 @@ namespace alluvium::run
 
   Checkpoint::Checkpoint(MPI_Comm communicator, const std::string &newest)
     : folder(fs::exists(newest) ? newest : newest + ".before")
+    , history(history_bytes)
     , fluid(folder)
   {
     check_user(fs::is_directory(folder),
                "Output/Restart: there is no checkpoint in '" + fs::path(newest).parent_path().string() + "'.");
     const std::string text = read_checked_file(communicator, folder + "/state", "state");
-    read([&] { state = nlohmann::ordered_json::parse(text); });
+    history_bytes          = read_checked_file(communicator, folder + "/" + history_file, history_file);
+    read([&] {
+      state         = nlohmann::ordered_json::parse(text);
+      as_many_ranks = state.at("ranks") == Utilities::MPI::n_mpi_processes(communicator);
+    });
   }
 
 
   template <typename Action>
   void Checkpoint::read(const Action &action) const
   {
+    const auto complain = [&] {
+      throw UserError("Output/Restart: the checkpoint in '" + folder +
+                      "' is not as this program writes it: was it made by another version?");
+    };
     try
       {
         action();
       }
+    catch (const UserError &)
+      {
+        throw;
+      }
     catch (const nlohmann::json::exception &)
       {
-        throw UserError("Output/Restart: '" + folder +
-                        "/state' is not as this program writes it: was it made by another version?");
+        complain();
+      }
+    catch (const std::runtime_error &) // of ByteReader
+      {
+        complain();
       }
   }
 
 
-  void Checkpoint::load_grains(Model &m) const
+  std::vector<std::string> Checkpoint::compare_parameters(const Model &m) const
   {
+    std::vector<ParameterChange> changes;
+    bool                         never_refines = false;
     read([&] {
-      m.time    = state.at("time");
-      m.n_steps = state.at("steps");
-      m.counts  = state.at("counts").get<decltype(m.counts)>();
+      changes = changed_parameters(state.at("parameters").get<std::map<std::string, std::string>>(), m.parameters);
+      never_refines = state.at("never refines");
     });
+    return accept_changes(changes, never_refines, m.adaptivity.adapts());
+  }
+
+
+  std::string Checkpoint::description(const Model &m) const
+  {
+    std::ostringstream text;
+    text << "Continues from t = " << m.time << " s, step " << m.n_steps << ", of the checkpoint in '" << folder << "'";
+    if (!as_many_ranks)
+      text << ", which was written on " << state.at("ranks") << " rank(s): round-off will differ";
+    text << '.';
+    return text.str();
+  }
+
+
+  void Checkpoint::load_grains(Model &m)
+  {
     grains::ContactArchive archive;
-    const std::size_t      n = m.grains.n();
     grains::load_grains(m.communicator, folder + "/grains", m.grains, archive);
-    check_user(m.grains.n() == n,
-               "Output/Restart: the checkpoint has " + std::to_string(m.grains.n()) + " grains, the scene " +
-                 std::to_string(n) + ".");
     m.contacts.set_archive(archive);
-    for (std::size_t i = 0; i < n; ++i)
-      m.touched[i] = m.grains.fcx[i] != 0. || m.grains.fcy[i] != 0.;
+    read([&] {
+      m.time            = state.at("time");
+      m.n_steps         = state.at("steps");
+      const auto &clock = state.at("clock");
+      m.clock           = {clock.at(0).get<double>(), clock.at(1).get<unsigned int>(), clock.at(2).get<double>()};
+      m.counts          = state.at("counts").get<decltype(m.counts)>();
+      m.coarse_size     = state.at("coarse size");
+      m.never_refines   = state.at("never refines");
+      m.initial_bed.columns.clear();
+      if (state.contains("initial bed"))
+        for (const auto &c : state.at("initial bed"))
+          m.initial_bed.columns.push_back(
+            {c.at(0).get<double>(), c.at(1).get<double>(), c.at(2).get<double>(), c.at(3).get<double>()});
+      if (m.clock.dt != m.time_step)
+        m.clock = {m.time, m.n_steps, m.time_step};
+
+      cells.load(history);
+      m.touched = history.get_vector<std::uint8_t>();
+      m.contacts.load(history);
+    });
+  }
+
+
+  const mesh::Partition *Checkpoint::partition() const
+  {
+    return as_many_ranks ? &cells : nullptr;
   }
 
 
@@ -123,6 +203,23 @@ namespace alluvium::run
     m.solver.set_solution(field);
     m.solver.old() = before;
     m.solver.old().update_ghost_values();
+  }
+
+
+  void Checkpoint::load_history(Model &m)
+  {
+    const std::string bytes = read_checked_file(m.communicator, folder + "/" + solver_file, solver_file);
+    read([&] {
+      m.coupling.load(history, m.grains);
+      if (!as_many_ranks)
+        return;
+      ByteReader  of_all(bytes);
+      std::string mine;
+      for (unsigned int rank = 0; rank <= Utilities::MPI::this_mpi_process(m.communicator); ++rank)
+        mine = of_all.get_string();
+      ByteReader reader(mine);
+      m.solver.load_history(reader);
+    });
   }
 
 

@@ -5,6 +5,8 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -110,6 +112,21 @@ namespace alluvium::run
                   smaller_step + ", slower walls, or more room."};
       }
     return {};
+  }
+
+
+  void DivergenceMonitor::save(nlohmann::ordered_json &state) const
+  {
+    state["divergence monitor"] = {unexplained, largest_share_of_bound};
+  }
+
+
+  void DivergenceMonitor::load(const nlohmann::ordered_json &state)
+  {
+    if (!state.contains("divergence monitor"))
+      return;
+    unexplained            = state.at("divergence monitor").at(0).get<double>();
+    largest_share_of_bound = state.at("divergence monitor").at(1).get<double>();
   }
 
 

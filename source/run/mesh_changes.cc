@@ -4,6 +4,7 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/grid/tria.h>
+#include <deal.II/lac/affine_constraints.h>
 
 namespace alluvium::run
 {
@@ -25,6 +26,20 @@ namespace alluvium::run
     m.triangulation = std::move(mesh);
     m.transfer = std::make_unique<mesh::FieldTransfer<Model::dim>>(m.space.dof_handler(), m.space.nodal_dof_handler());
     reinit(m);
+  }
+
+
+  void repartition(Model &m, const mesh::Partition &partition)
+  {
+    m.transfer->prepare({&m.solver.solution(), &m.solver.old()});
+    partition.apply(*m.triangulation);
+    reinit(m);
+    fluid::BlockVector                      field = m.space.make_field(), before = field;
+    const dealii::AffineConstraints<double> none; // hanging nodes keep their bits, too
+    m.transfer->interpolate({&field, &before}, none, {}, none);
+    m.solver.set_solution(field);
+    m.solver.old() = before;
+    m.solver.old().update_ghost_values();
   }
 
 

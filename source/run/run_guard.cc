@@ -53,6 +53,12 @@ namespace alluvium::run
   }
 
 
+  void RunGuard::resume(const nlohmann::ordered_json &state)
+  {
+    monitor.load(state);
+  }
+
+
   void RunGuard::start()
   {
     meter.begin(model);
@@ -141,7 +147,10 @@ namespace alluvium::run
   {
     check_user(disk_has_room(),
                "cannot write '" + output.folder().file("checkpoint") + "': there is hardly any room left on the disk.");
-    Checkpoint::write(output.folder().file("checkpoint"), model, output);
+    Checkpoint::write(output.folder().file("checkpoint"), model, [&](nlohmann::ordered_json &state) {
+      output.save(state);
+      monitor.save(state);
+    });
     checkpoint_step = model.n_steps;
     is_due          = false;
   }

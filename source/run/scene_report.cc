@@ -23,7 +23,7 @@ namespace alluvium::run
     const double d = mesh::mean_diameter(m.grains);
     line("grains",
          std::to_string(m.grains.n()) + " discs, mean diameter " + number(d) + " m, fluid radius " +
-           number(m.grain_setup.radius_factor()) + " of the contact radius");
+           number(m.grains.fluid_radius[0] / m.grains.radius[0]) + " of the contact radius");
     if (!m.initial_bed.empty())
       {
         const double packing = grains::inner_packing_fraction(m.grains);

@@ -29,18 +29,25 @@ namespace alluvium::run
     }
 
 
-    void set_up_fluid(Model &m, const double coarse_size, Checkpoint *from)
+    void set_up_fluid(Model &m, Checkpoint *from)
     {
       count_cell_weights(m);
-      const auto context       = m.refinement_context();
-      const bool never_refines = m.adaptivity.never_refines(coarse_size, context);
-      auto       mesh          = m.domain.make_triangulation(coarse_size, never_refines, m.cell_weights);
+      const auto context = m.refinement_context();
+      if (!from)
+        m.never_refines = m.adaptivity.never_refines(m.coarse_size, context);
+      const auto *partition = from ? from->partition() : nullptr;
+      auto        mesh      = m.domain.make_triangulation(m.coarse_size,
+                                              m.never_refines,
+                                              m.cell_weights,
+                                              partition ? partition->owners : std::vector<types::subdomain_id>());
       m.adaptivity.check_mesh(*mesh);
       if (from)
         from->load_mesh(*mesh);
-      m.adaptivity.balance(*mesh, m.cell_weights);
-      if (!from)
-        m.adaptivity.make_initial_mesh(*mesh, context);
+      else
+        {
+          m.adaptivity.balance(*mesh, m.cell_weights);
+          m.adaptivity.make_initial_mesh(*mesh, context);
+        }
 
       m.boundary_conditions.initialize(
         m.domain.boundary_ids(),
@@ -56,10 +63,16 @@ namespace alluvium::run
       attach_mesh(m, std::move(mesh));
       m.solver.choose_datum(m.boundary_conditions);
       if (from)
-        from->load_fields(m);
+        {
+          from->load_fields(m);
+          if (partition && !partition->last_cells.empty())
+            repartition(m, *partition);
+          m.adaptivity.balance(*m.triangulation, m.cell_weights);
+          from->load_history(m);
+          return;
+        }
       m.coupling.update_void_fraction(m.grains);
-      if (!from)
-        find_initial_mesh(m);
+      find_initial_mesh(m);
     }
 
 
@@ -117,20 +130,23 @@ namespace alluvium::run
     m.contacts.set_walls(walls);
     m.contacts.set_periodicity(m.domain.periodicity());
     m.contacts.set_communicator(m.communicator);
-    m.grains                          = m.grain_setup.make(m.communicator, m.domain, walls, m.gravity, directory);
     const std::array<double, 2> lower = {{m.domain.lower()[0], m.domain.lower()[1]}},
                                 upper = {{m.domain.upper()[0], m.domain.upper()[1]}};
-    const double largest              = 2. * *std::max_element(m.grains.radius.begin(), m.grains.radius.end());
-    m.initial_bed                     = mesh::find_bed_faces(m.grains, lower[0], upper[0]);
-    m.touched.assign(m.grains.n(), 0);
-    // also where the run restarts, the unrefined mesh is that of its beginning
-    const double coarse_size = m.domain.coarse_cell_size() > 0. || !m.has_fluid
-                                 ? m.domain.coarse_cell_size()
-                                 : m.adaptivity.coarse_size(m.refinement_context());
     if (from)
       from->load_grains(m);
+    else
+      {
+        m.clock.dt    = m.time_step;
+        m.grains      = m.grain_setup.make(m.communicator, m.domain, walls, m.gravity, directory);
+        m.initial_bed = mesh::find_bed_faces(m.grains, lower[0], upper[0]);
+        m.coarse_size = m.domain.coarse_cell_size() > 0. || !m.has_fluid
+                          ? m.domain.coarse_cell_size()
+                          : m.adaptivity.coarse_size(m.refinement_context());
+        m.touched.assign(m.grains.n(), 0);
+      }
+    const double largest = 2. * *std::max_element(m.grains.radius.begin(), m.grains.radius.end());
     if (m.has_fluid)
-      set_up_fluid(m, coarse_size, from);
+      set_up_fluid(m, from);
     m.store.initialize(m.grains, lower, upper, m.contacts.settings().skin * largest);
     if (m.grains_move && !from)
       find_initial_contact_forces(m);

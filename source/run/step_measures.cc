@@ -1,3 +1,4 @@
+#include <alluvium/fluid/cell_order.h>
 #include <alluvium/run/model.h>
 #include <alluvium/run/step_measures.h>
 
@@ -78,7 +79,7 @@ namespace alluvium::run
     const auto        &periodic = m.space.periodic_box().length;
     const unsigned int n        = m.space.n_nodes_per_cell();
     unsigned int       index    = 0;
-    for (const auto &cell : m.space.dof_handler().active_cell_iterators())
+    for (const auto &cell : fluid::ordered_cells(m.space.dof_handler()))
       {
         if (!cell->is_locally_owned())
           continue;

@@ -59,6 +59,17 @@ namespace alluvium::coupling
     void forget_positions() { map.forget_positions(); }
 
     /**
+     * What the next step() of @p grains depends on besides the fluid's fields, and what the run remembers. load() cuts
+     * the grains where they were cut last; it throws std::runtime_error if @p reader ends. Collective.
+     */
+    void save(ByteWriter                      &writer,
+              const grains::GrainArrays       &grains,
+              const std::vector<std::uint8_t> &touched,
+              double                           dt,
+              bool                             fixed) const;
+    void load(ByteReader &reader, const grains::GrainArrays &grains);
+
+    /**
      * Solve the fluid from t^n to t^n + @p dt and fill @p loads. @p boundary_conditions are at the new time. @p fixed
      * grains neither move nor yield. A step that would be the last one once more, bit by bit, is not computed.
      * Collective.
@@ -143,7 +154,11 @@ namespace alluvium::coupling
 
     /** For grains whose velocity is known. */
     const TimeScheme &frozen_scheme() const { return scheme_choice.get("implicit drag"); }
-    void              find_state(CouplingState &state);
+
+    static Inputs
+    inputs_of(const grains::GrainArrays &grains, const std::vector<std::uint8_t> &touched, double dt, bool fixed);
+
+    void find_state(CouplingState &state);
     /** Mass of all grains over their drag: how fast it brings grains and fluid together [s]. */
     double relaxation_time(const CouplingState &state) const;
     void   find_loads(const TimeScheme &scheme, const CouplingState &state, grains::GrainLoads &loads);
@@ -182,9 +197,10 @@ namespace alluvium::coupling
     CouplingReport                     of_rebalance; // solves for the report of the step that follows
     Inputs                             last_inputs;
     grains::GrainLoads                 last_loads;
-    bool                               still = false; // the last step left the fluid as it was
-    std::unique_ptr<CouplingState>     latest_state;  // of the latest step; refers to its caller's grains
-    std::vector<fluid::BlockVector>    repeated_with; // the solutions that a repeated step is made of
+    bool                               still   = false; // the last step left the fluid as it was
+    bool                               resumes = false; // with a step that the uninterrupted run may not compute
+    std::unique_ptr<CouplingState>     latest_state;    // of the latest step; refers to its caller's grains
+    std::vector<fluid::BlockVector>    repeated_with;   // the solutions that a repeated step is made of
     std::vector<std::array<double, 2>> force, predicted;
     std::vector<double>                drag_means; // sums over each grain's pieces on this rank: A eps, A Re
     std::vector<std::uint8_t>          outside;    // the drag law's range, at any time

@@ -40,6 +40,10 @@ namespace alluvium::coupling
     /** Cut all grains anew next time, for the same bits whether a run was interrupted or not. */
     void forget_positions() { position = {}; }
 
+    /** Where grains were when they were cut last, x and y [m]: the same cut anew gives the same pieces, to the bit. */
+    const std::vector<double> &x_of_cut() const { return position.x; }
+    const std::vector<double> &y_of_cut() const { return position.y; }
+
     /** The pieces; their exchange terms are the time scheme's to fill. */
     fluid::InterphaseTerms<dim>       &terms() { return pieces; }
     const fluid::InterphaseTerms<dim> &terms() const { return pieces; }

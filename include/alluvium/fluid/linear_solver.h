@@ -1,6 +1,7 @@
 #pragma once
 
 #include <alluvium/fluid/fluid_space.h>
+#include <alluvium/utilities/checked_file.h>
 
 #include <deal.II/lac/trilinos_block_sparse_matrix.h>
 #include <deal.II/lac/trilinos_precondition.h>
@@ -45,6 +46,15 @@ namespace alluvium::fluid
     /** Forget the preconditioner: the mesh or the time step changed. */
     void clear();
 
+    /** This rank's part of the matrix that the preconditioner was built from, and what decides when it is rebuilt. */
+    void save(ByteWriter &writer) const;
+
+    /**
+     * Build the preconditioner that was saved, through @p matrix, which has the same pattern; with another one there is
+     * none afterwards. Throws std::runtime_error if @p reader ends. Collective.
+     */
+    void load(ByteReader &reader, dealii::TrilinosWrappers::BlockSparseMatrix &matrix);
+
     /**
      * Solve matrix * x = right_hand_side until the residual is below the tolerance times @p scale, the norms of the two
      * equations' terms, and times @p tolerance_factor, as far as round-off allows. Where GMRES stalls above it but
@@ -70,6 +80,8 @@ namespace alluvium::fluid
 
     bool                                      fresh = false, exists = false, diffusive = false, convective = false;
     unsigned int                              n_when_fresh = 0;
+    std::vector<double>                       built_from;                             // all values of the matrix
+    double                                    inertia_then = 0., viscosity_then = 0.; // the scales of then
     Vector                                    inverse_mass;
     std::vector<double>                       mobility; // viscosity over volume, owned pressures [Pa s/m^dim]
     std::unique_ptr<Epetra_CrsMatrix>         schur;

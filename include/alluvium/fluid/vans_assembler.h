@@ -52,6 +52,7 @@ namespace alluvium::fluid
     double interphase_torque(const VansProblem<dim> &problem, const BlockVector &solution) const;
 
     const dealii::TrilinosWrappers::BlockSparseMatrix &matrix() const { return system_matrix; }
+    dealii::TrilinosWrappers::BlockSparseMatrix       &matrix() { return system_matrix; }
 
     /** Sizes of the two equations' terms before they cancel (l2 over cells and nodes): what a residual is small
      * against. */

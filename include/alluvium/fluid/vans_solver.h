@@ -73,6 +73,10 @@ namespace alluvium::fluid
     void   set_datum(const double value) { pressure_datum = value; }
     double datum() const { return pressure_datum; }
 
+    /** What the solver keeps from step to step besides the fields; see LinearSolver. After the fields are loaded. */
+    void save_history(ByteWriter &writer) const;
+    void load_history(ByteReader &reader);
+
   private:
     VansAssembler<dim>
       assembler; // before the linear solver, whose smoothers look at the matrix when they are destroyed

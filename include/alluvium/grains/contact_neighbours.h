@@ -8,6 +8,14 @@
 
 namespace alluvium::grains
 {
+  /** What the last search saw, and how far it still serves: enough to repeat it, to the bit. */
+  struct ContactSearchRecord
+  {
+    bool                known = false;        // whether there was one whose pairs are still in use
+    std::vector<double> x, y, wall_positions; // of all grains, and as in ContactArchive [m]
+    double              skin = 0., left = 0.; // then, and less what walls have moved since [m]
+  };
+
   /**
    * The pairs that the last contact search found, with the impulses they last exchanged. Knows how far grains may still
    * move before it misses a pair, and carries the impulses of pairs over to the next search by the ids of their grains.
@@ -26,6 +34,11 @@ namespace alluvium::grains
      * it owns the first @p n_owned.
      */
     void keep(ContactCandidates share, const GrainArrays &grains, std::size_t n_owned);
+
+    ContactSearchRecord last_search() const;
+
+    /** Search as @p last did: @p grains and walls are where they were. The impulses are those of set_archive(). */
+    void repeat(const ContactSearchRecord &last, const GrainArrays &grains, const ContactGeometry &geometry);
 
     /** Let the next use search anew, whatever has moved. */
     void forget();
@@ -64,8 +77,9 @@ namespace alluvium::grains
   private:
     std::vector<GrainId>       searched_id; // the grains of the last search, and where they were
     std::vector<double>        searched_x, searched_y;
-    std::size_t                n_owned  = 0; // of them
-    double                     skin     = 0.;
+    std::size_t                n_owned = 0; // of them
+    double                     skin    = 0.;
+    ContactSearchRecord        record; // of all grains, also where this is a share
     bool                       searched = false;
     ContactArchive             pending;                // impulses that wait for a search, sorted
     std::vector<std::uint32_t> disc_order, wall_order; // the pairs by grains (i, j); empty for a share

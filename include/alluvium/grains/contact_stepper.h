@@ -9,6 +9,7 @@
 #include <alluvium/grains/grain_arrays.h>
 #include <alluvium/grains/periodicity.h>
 #include <alluvium/grains/wall.h>
+#include <alluvium/utilities/checked_file.h>
 
 #include <mpi.h>
 
@@ -103,6 +104,13 @@ namespace alluvium::grains
 
     ContactArchive archive() const;
     void           set_archive(ContactArchive archive);
+
+    /**
+     * What else the next step depends on: the last search and what is known to rest. After set_archive(), which forgets
+     * them, a run goes on with the same bits. load() throws std::runtime_error if @p reader ends.
+     */
+    void save(ByteWriter &writer) const;
+    void load(ByteReader &reader);
 
   private:
     class Implementation;

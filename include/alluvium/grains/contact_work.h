@@ -55,6 +55,14 @@ namespace alluvium::grains
     /** The same in the midst of a solve: the velocities @p discs go along with the grains. */
     void search(double skin, std::vector<Disc> &discs);
 
+    /** Let the next step begin with the pairs of @p last, before which set_archive() has given their impulses. */
+    void repeat_search(ContactSearchRecord last) { to_repeat = std::move(last); }
+    /** Do so, if that was asked for. Collective. */
+    void repeat_search(GrainArrays &all, const GrainLoads &all_loads, bool sharing);
+
+    /** What repeat_search() needs to know of the present pairs. */
+    ContactSearchRecord last_search() const { return to_repeat.known ? to_repeat : neighbours.last_search(); }
+
     /** Whether the pairs are still those of @p grains, all of them. */
     bool fits(const GrainArrays &grains) const
     {
@@ -69,6 +77,8 @@ namespace alluvium::grains
     GrainArrays      *all       = nullptr;
     const GrainLoads *all_loads = nullptr;
     bool              shared    = false;
+
+    ContactSearchRecord to_repeat;
 
     void set_shared(bool now);
   };

@@ -3,6 +3,7 @@
 #include <alluvium/grains/contact_report.h>
 #include <alluvium/grains/grain_arrays.h>
 #include <alluvium/grains/periodicity.h>
+#include <alluvium/utilities/checked_file.h>
 
 #include <cstdint>
 #include <vector>
@@ -47,6 +48,9 @@ namespace alluvium::grains
                ContactReport                   &report);
 
     void forget() { n_quiet = 0; }
+
+    void save(ByteWriter &writer) const;
+    void load(ByteReader &reader); // throws std::runtime_error if @p reader ends
 
   private:
     unsigned int              n_quiet = 0; // steps since the references

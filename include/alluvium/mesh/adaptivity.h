@@ -47,6 +47,9 @@ namespace alluvium::mesh
     /** Are cells of @p size [m], all of them, what the criteria want in the whole run? Then they are never refined. */
     bool never_refines(const double size, const RefinementContext &context) const;
 
+    /** Whether the mesh is adapted after the start. */
+    bool adapts() const { return interval > 0; }
+
     /** Is the mesh to be adapted before step number @p step (0, 1, ...)? */
     bool due(unsigned int step) const;
 

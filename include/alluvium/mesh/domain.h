@@ -64,10 +64,13 @@ namespace alluvium::mesh
      * @p cell_size [m] (a hair more where rounding makes them square). Cells of a file are as they are. What may be
      * refined is a parallel::distributed::Triangulation, dealt out along p4est's curve. Triangles, and a rectangle that
      * @p never_refines and does not repeat itself, are a parallel::shared::Triangulation with artificial cells, dealt
-     * out by partition_by_bisection() with @p weights.
+     * out by partition_by_bisection() with @p weights, or to @p owners, if there is one for each cell.
      */
     std::unique_ptr<dealii::Triangulation<dim, dim>>
-    make_triangulation(double cell_size, bool never_refines = false, const CellWeights &weights = {}) const;
+    make_triangulation(double                                          cell_size,
+                       bool                                            never_refines = false,
+                       const CellWeights                              &weights       = {},
+                       const std::vector<dealii::types::subdomain_id> &owners        = {}) const;
 
     /**
      * The boundary as walls for the grains: one segment per straight side, named like the boundary, without the

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <alluvium/mesh/fluid_checkpoint.h>
+#include <alluvium/mesh/partition.h>
+#include <alluvium/utilities/checked_file.h>
 
 #include <mpi.h>
 #include <nlohmann/json.hpp>
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace dealii
 {
@@ -20,14 +23,15 @@ namespace alluvium::run
   class Output;
 
   /**
-   * A run's state in a folder of its own, to go on from with the same bits on any number of ranks. Whenever the machine
-   * stops there is a whole checkpoint: the new one or the one before. All functions are collective; what is missing or
-   * damaged is a UserError.
+   * A run's state in a folder of its own: all that its next steps depend on, preconditioner, contact search and
+   * partition included. On as many ranks as before a run goes on from it with the same bits, as if nothing had
+   * happened; on others with other round-off. Whenever the machine stops there is a whole checkpoint: the new one or
+   * the one before. All functions are collective; what is missing or damaged is a UserError.
    */
   class Checkpoint
   {
   public:
-    /** Write @p model and @p output to @p folder. The run goes on as a restarted one would. */
+    /** Write @p model and @p output to @p folder; neither changes. */
     static void write(const std::string &folder, Model &model, const Output &output);
 
     /** The same, with what @p save_output puts into the state, on the rank that speaks, in the place of an output's. */
@@ -37,14 +41,32 @@ namespace alluvium::run
     /** The checkpoint that write() left in @p folder. */
     Checkpoint(MPI_Comm communicator, const std::string &folder);
 
-    /** Grains, contacts, time and counts, into a model that has the scene's grains. */
-    void load_grains(Model &model) const;
+    /**
+     * Compare the parameters with those of the interrupted run. Throws UserError if one has changed that is fixed for
+     * the whole run. Returns what has changed else, a line for each.
+     */
+    std::vector<std::string> compare_parameters(const Model &model) const;
+
+    /** In words, where the run goes on from. */
+    std::string description(const Model &model) const;
+
+    /** Grains, contacts, time and counts. */
+    void load_grains(Model &model);
+
+    /** Who owned which cell, if there were as many ranks as now, else nullptr. After load_grains(). */
+    const mesh::Partition *partition() const;
 
     /** Refine @p mesh, which is the unrefined one, as it was. */
     void load_mesh(dealii::Triangulation<2, 2> &mesh);
 
     /** The fluid's fields, into a model that has the mesh. */
     void load_fields(Model &model) const;
+
+    /** What solver and coupling have kept from earlier steps, into a model that has fields and partition. */
+    void load_history(Model &model);
+
+    /** Its file `state`, with what the caller of write() has put there. */
+    const nlohmann::ordered_json &saved_state() const { return state; }
 
     /** What output and observers remember. */
     void resume(Output &output) const;
@@ -55,6 +77,10 @@ namespace alluvium::run
 
     std::string              folder;
     nlohmann::ordered_json   state;
+    std::string              history_bytes;
+    ByteReader               history;
+    mesh::Partition          cells;
+    bool                     as_many_ranks = false;
     mesh::FluidCheckpoint<2> fluid;
   };
 } // namespace alluvium::run

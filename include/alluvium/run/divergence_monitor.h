@@ -2,6 +2,8 @@
 
 #include <alluvium/run/step_measures.h>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 
 namespace dealii
@@ -40,7 +42,11 @@ namespace alluvium::run
     /** Whether the last step was good beyond doubt: what a checkpoint may be made of. */
     bool is_calm() const { return calm; }
 
-    /** The largest unexplained energy of this program's steps, over the bound of its time. */
+    /** For checkpoints: what it remembers from step to step; of a checkpoint without that, nothing. */
+    void save(nlohmann::ordered_json &state) const;
+    void load(const nlohmann::ordered_json &state);
+
+    /** The largest unexplained energy of a step, over the bound of its time. */
     double largest_share() const { return largest_share_of_bound; }
 
     /** Whether a sign ends the run; else it is a warning. */

@@ -23,6 +23,16 @@
 
 namespace alluvium::run
 {
+  /** Time as a multiple of the time step, counted from where a restart changed that: sums would gather round-off. */
+  struct Clock
+  {
+    double       since   = 0.; // [s]
+    unsigned int n_steps = 0;  // then
+    double       dt      = 0.; // since then [s]
+
+    double at(const unsigned int n) const { return since + (n - n_steps) * dt; }
+  };
+
   /**
    * What a run computes with: the rooms that take part, and the state that they advance. It decides nothing; set_up()
    * fills it, Simulation::Implementation::step() moves it on. The fluid's rooms stay empty in a dry scene.
@@ -75,10 +85,15 @@ namespace alluvium::run
     mesh::BedFaces                initial_bed;
     double                        time    = 0.; // [s]
     unsigned int                  n_steps = 0;
-    std::map<std::string, double> counts; // steps, sweeps, iterations ...
+    Clock                         clock;
+    double                        coarse_size   = 0.;    // cells of the unrefined mesh [m]
+    bool                          never_refines = false; // the mesh stays as it was made
+    std::map<std::string, double> counts;                // steps, sweeps, iterations ...
 
     bool                                 watches_mesh_changes = false; // does an observer want to know of them?
     std::optional<observers::MeshChange> mesh_change;                  // the latest, if so
+
+    std::vector<std::pair<std::string, std::string>> parameters; // all of them as used; a checkpoint keeps them
 
     /** Gravity and the kind of fluid are written as text: make them what they mean. After parsing. */
     void parse_parameters();

@@ -35,6 +35,9 @@ namespace alluvium::run
     /** Once the output folder is ours: from here on fail() works. @p is_restart: it has a checkpoint. Collective. */
     void begin(bool is_restart);
 
+    /** Go on from the @p state of a checkpoint. */
+    void resume(const nlohmann::ordered_json &state);
+
     /** Before the first step. Collective. */
     void start();
 

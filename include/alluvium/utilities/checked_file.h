@@ -46,6 +46,12 @@ namespace alluvium
       bytes.append(reinterpret_cast<const char *>(values.data()), values.size() * sizeof(T));
     }
 
+    void put(const std::string &text)
+    {
+      put<std::uint64_t>(text.size());
+      bytes += text;
+    }
+
     std::string bytes;
   };
 
@@ -74,6 +80,15 @@ namespace alluvium
       std::vector<T> values(size);
       take(values.data(), size * sizeof(T));
       return values;
+    }
+
+    std::string get_string()
+    {
+      const auto size = get<std::uint64_t>();
+      check_room(size, 1);
+      std::string text(size, '\0');
+      take(text.data(), size);
+      return text;
     }
 
     bool at_end() const { return position == bytes->size(); }
