@@ -1,5 +1,6 @@
 // A manufactured solution of the stationary VANS equations with a varying void fraction: L2(u) converges with order 2,
 // H1(u) with 1, L2(p) with 1.5 or more, on quadrilaterals with hanging nodes and on triangles.
+#include <alluvium/fluid/cell_order.h>
 #include <alluvium/fluid/vans_solver.h>
 
 #include <deal.II/base/convergence_table.h>
@@ -149,7 +150,7 @@ namespace
                          quadrature,
                          update_values | update_JxW_values | update_quadrature_points);
     solid.begin.push_back(0);
-    for (const auto &cell : space.nodal_dof_handler().active_cell_iterators())
+    for (const auto &cell : ordered_cells(space.nodal_dof_handler()))
       {
         values.reinit(cell);
         for (unsigned int q = 0; q < quadrature.size(); ++q)
@@ -196,7 +197,7 @@ namespace
     for (int pass = 0; pass < 2; ++pass)
       {
         unsigned int index = 0;
-        for (const auto &cell : space.nodal_dof_handler().active_cell_iterators())
+        for (const auto &cell : ordered_cells(space.nodal_dof_handler()))
           {
             fe.reinit(cell);
             const auto &data = space.cells()[index++];
