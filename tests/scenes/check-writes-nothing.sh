@@ -24,7 +24,8 @@ subsection Grains
   end
 end
 subsection Output
-  set Interval of pictures = 0
+  set Interval of pictures   = 0
+  set Interval of statistics = 0
 end
 END
 cp -r scene before
