@@ -166,7 +166,7 @@ namespace alluvium
         shown.update(model.n_steps, model.time, model.time_step, guard.state_in_words());
       }
     shown.finish();
-    return signal;
+    return has_ended() ? 0 : signal; // in the last step it interrupts nothing
   }
 
 
