@@ -185,7 +185,7 @@ namespace alluvium::fluid
           state.reinit(i);
           add_cell(state, state.values(solution), sum);
         }
-      const auto backflow = backflow_shares(space, *problem.old);
+      const auto backflow = backflow_shares(space, problem);
       for (const auto &face : space.open_faces())
         {
           state.reinit(face.cell);

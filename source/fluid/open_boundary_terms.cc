@@ -103,10 +103,16 @@ namespace alluvium::fluid
 
 
   template <int dim>
-  std::map<types::boundary_id, double> backflow_shares(const FluidSpace<dim> &space, const BlockVector &field)
+  std::map<types::boundary_id, double> backflow_shares(const FluidSpace<dim> &space, const VansProblem<dim> &problem)
   {
     std::map<types::boundary_id, double> shares;
-    for (const auto &[id, inflow] : inflows(space, field))
+    if (!problem.discretisation.convection)
+      {
+        for (const auto id : space.open_boundaries())
+          shares[id] = 0.;
+        return shares;
+      }
+    for (const auto &[id, inflow] : inflows(space, *problem.old))
       shares[id] = inflow.backflow_share();
     return shares;
   }
@@ -178,7 +184,7 @@ namespace alluvium::fluid
   }
 
 
-  template std::map<types::boundary_id, double> backflow_shares(const FluidSpace<2> &, const BlockVector &);
+  template std::map<types::boundary_id, double> backflow_shares(const FluidSpace<2> &, const VansProblem<2> &);
   template std::map<types::boundary_id, double>
   dynamic_pressures(const FluidSpace<2> &, const double, const BlockVector &);
   template void

@@ -125,7 +125,7 @@ namespace alluvium::fluid
           if (state.has_pieces())
             constraints.distribute_local_to_global(local_known, local_dofs, known);
         }
-      const auto backflow = backflow_shares(*space, *problem.old);
+      const auto backflow = backflow_shares(*space, problem);
       for (const auto &face : space->open_faces())
         {
           const CellData<dim> &cell = space->cells()[face.cell];

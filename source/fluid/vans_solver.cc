@@ -34,15 +34,22 @@ namespace alluvium::fluid
       discretisation.lumped_drag,
       "Row-sum lump the drag in the momentum equation. Needed for the right flux on meshes finer than a grain; "
       "costs pressure accuracy where drag varies strongly within a cell.");
-    prm.add_parameter(
-      "Open boundary terms",
-      open_boundary_terms,
+    const std::string terms = "Open boundary terms";
+    prm.declare_entry(
+      terms,
+      "traction, upwinding, advection, tangential, backflow",
+      Patterns::MultipleSelection("none|traction|upwinding|advection|tangential|backflow"),
       "What is done where the pressure is given, for comparisons (doc/open-boundaries.md). `traction`: viscous "
       "traction "
       "of developed flow; `upwinding`: none across the boundary; `advection`: none from outside; `tangential`: flow "
       "enters at right angles; `backflow`: what comes back loses its kinetic energy. Leave one out and flows that are "
-      "exact or stable are so no longer.",
-      Patterns::MultipleSelection("none|traction|upwinding|advection|tangential|backflow"));
+      "exact or stable are so no longer.");
+    prm.add_action(terms, [this](const std::string &value) {
+      const auto names = Utilities::split_string_list(value);
+      const auto has   = [&](const char *term) { return std::find(names.begin(), names.end(), term) != names.end(); };
+      discretisation.open_boundary = {
+        has("traction"), has("upwinding"), has("advection"), has("tangential"), has("backflow")};
+    });
     linear_solver.add_parameters(prm);
     prm.leave_subsection();
   }
@@ -109,13 +116,7 @@ namespace alluvium::fluid
     current                = problem;
     current.fluid          = properties;
     current.discretisation = discretisation;
-    const auto has         = [&](const std::string &term) {
-      const auto names = Utilities::split_string_list(open_boundary_terms);
-      return std::find(names.begin(), names.end(), term) != names.end();
-    };
-    current.discretisation.open_boundary = {
-      has("traction"), has("upwinding"), has("advection"), has("tangential"), has("backflow")};
-    current.old = &previous;
+    current.old            = &previous;
     if (current.dt > 1.2 * dt_of_preconditioner || current.dt < dt_of_preconditioner / 1.2)
       {
         linear_solver.clear();

@@ -200,7 +200,9 @@ namespace
         const double ratio     = std::max(std::sqrt(2. * square / unseen.size()) / (tolerance * c.typical_force()),
                                       std::hypot(sum[0], sum[1]) / (0.1 * tolerance * c.report().force_scale));
         if (std::abs(ratio - 1.) > 1e-6)
-          EXPECT_EQ(bed.iteration.agrees(), ratio < 1.) << "step " << k << ": " << ratio << " of the tolerance";
+          {
+            EXPECT_EQ(bed.iteration.agrees(), ratio < 1.) << "step " << k << ": " << ratio << " of the tolerance";
+          }
       }
     EXPECT_GT(n_tight, 0u);
   }

@@ -102,6 +102,5 @@ namespace alluvium::fluid
     BlockVector            iterate, previous, residual, known, increment, product;
     LinearSolverReport     report;
     double                 dt_of_preconditioner = 0., pressure_datum = 0.;
-    std::string            open_boundary_terms = "traction, upwinding, advection, tangential, backflow";
   };
 } // namespace alluvium::fluid
