@@ -222,6 +222,7 @@ namespace alluvium
     counts["steps that ended above the tolerance of repetitions"] += !model.contact_iteration.agrees();
     counts["fluid steps like the last"] += model.coupling.report().steady;
     counts["linear solves above the tolerance"] += model.coupling.report().n_loose;
+    counts["linear solves by the direct solver"] += model.coupling.report().n_direct;
     counts["steps with cells too uneven to be cut by lines"] += model.coupling.overlap().is_too_uneven();
 
     const auto warn = [&](const char *text, const double count) {
@@ -232,6 +233,9 @@ namespace alluvium
          model.contact_report.n_unconverged);
     warn("linear solves of the fluid stopped above the tolerance, at a relative residual below 1e-5",
          model.coupling.report().n_loose);
+    warn("linear solves of the fluid took the direct solver, since GMRES had failed: look whether the flow is resolved "
+         "in time and space",
+         model.coupling.report().n_direct);
     warn("steps had cells whose sides lie on too many different lines: grains were cut cell by cell, which takes two "
          "to four times as long",
          model.coupling.overlap().is_too_uneven());

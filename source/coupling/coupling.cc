@@ -139,9 +139,10 @@ namespace alluvium::coupling
     const bool           same_boundary_values = solver->has_boundary_values(boundary_conditions);
     if (!moved && same_boundary_values && still && inputs() == last_inputs)
       {
-        last        = before;
-        last.steady = true;
-        loads       = last_loads;
+        last              = before;
+        last.steady       = true;
+        last.n_iterations = last.n_loose = last.n_direct = 0; // those of rebalance() are counted
+        loads                                            = last_loads;
         return;
       }
     auto state_before    = std::move(latest_state);
@@ -165,6 +166,7 @@ namespace alluvium::coupling
     resumes     = false;
     last.n_iterations += std::exchange(of_rebalance.n_iterations, 0);
     last.n_loose += std::exchange(of_rebalance.n_loose, 0);
+    last.n_direct += std::exchange(of_rebalance.n_direct, 0);
   }
 
 
@@ -186,6 +188,7 @@ namespace alluvium::coupling
     state.answer = nullptr;
     last.n_iterations += solver->last_report().n_iterations;
     last.n_loose += solver->last_report().loose;
+    last.n_direct += solver->last_report().direct;
     look_at(solver->solution(), state);
     find_loads(scheme, state, loads);
     still = false;
@@ -246,6 +249,7 @@ namespace alluvium::coupling
     solve(boundary_conditions, frozen_scheme(), problem, state);
     of_rebalance.n_iterations += last.n_iterations;
     of_rebalance.n_loose += last.n_loose;
+    of_rebalance.n_direct += last.n_direct;
     if (!is_slow)
       {
         // the pressure that did away with what interpolation left is not that of the flow
@@ -297,6 +301,7 @@ namespace alluvium::coupling
     solver->solve();
     last.n_iterations = solver->last_report().n_iterations;
     last.n_loose      = solver->last_report().loose;
+    last.n_direct     = solver->last_report().direct;
     for (unsigned int sweep = 1; sweep < scheme.n_sweeps(); ++sweep)
       {
         look_at(solver->solution(), state);
@@ -307,6 +312,7 @@ namespace alluvium::coupling
         });
         last.n_iterations += solver->last_report().n_iterations;
         last.n_loose += solver->last_report().loose;
+        last.n_direct += solver->last_report().direct;
       }
     look_at(solver->solution(), state);
   }

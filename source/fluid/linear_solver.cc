@@ -1,6 +1,7 @@
+#include <alluvium/fluid/block_factors.h>
 #include <alluvium/fluid/linear_solver.h>
 #include <alluvium/fluid/sparse_product.h>
-#include <alluvium/utilities/user_error.h>
+#include <alluvium/utilities/divergence.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_handler.h>
@@ -24,6 +25,8 @@ namespace alluvium::fluid
     constexpr double diffusive_ratio = 20.;
     // fresh, the cheap preconditioner needs about ten iterations or fails
     constexpr unsigned int cheap_iterations = 60;
+    // with LU factors: one or two when fresh; and for so many solves they are used before the others have a try again
+    constexpr unsigned int direct_iterations = 20, direct_solves = 50;
     // and below which the row sums are as good an inverse for the last correction of the velocity
     constexpr double lumping_ratio = 4.;
 
@@ -34,65 +37,14 @@ namespace alluvium::fluid
       return text.str();
     }
 
-    /** The matrix with its continuity rows scaled, so that one norm measures both equations fairly. */
-    struct ScaledMatrix
+    double residual_norm(const ScaledMatrix &matrix, const BlockVector &x, const BlockVector &rhs)
     {
-      const TrilinosWrappers::BlockSparseMatrix &matrix;
-      double                                     scale;
-
-      void vmult(BlockVector &dst, const BlockVector &src) const
-      {
-        matrix.vmult(dst, src);
-        dst.block(1) *= scale;
-      }
-    };
-
-    /** The factors of LinearSolver's preconditioner, applied one after the other. */
-    struct BlockFactors
-    {
-      const TrilinosWrappers::BlockSparseMatrix &matrix;
-      const TrilinosWrappers::PreconditionBase  &first_velocity, &last_velocity;
-      const TrilinosWrappers::PreconditionAMG   &pressure;
-      const std::vector<double>                 &mobility;
-      const std::vector<double>                 *row_sums;     // for the last velocity; none: last_velocity it is
-      const Vector                              *inverse_mass; // where convection is strong
-      double                                     scale;
-      mutable BlockVector                        r, s;
-
-      void vmult(BlockVector &dst, const BlockVector &src) const
-      {
-        first_velocity.vmult(dst.block(0), src.block(0));
-        matrix.block(1, 0).vmult(r.block(1), dst.block(0));
-        r.block(1).sadd(-1., 1. / scale, src.block(1));
-        pressure.vmult(dst.block(1), r.block(1));
-        if (inverse_mass)
-          commute(dst.block(1));
-        for (unsigned int i = 0; i < mobility.size(); ++i)
-          dst.block(1).local_element(i) += mobility[i] * r.block(1).local_element(i);
-        matrix.block(0, 1).vmult(r.block(0), dst.block(1));
-        if (!row_sums)
-          {
-            last_velocity.vmult(s.block(0), r.block(0));
-            dst.block(0) -= s.block(0);
-          }
-        else // with which p is the solution of the continuity equation
-          for (unsigned int i = 0; i < row_sums->size(); ++i)
-            dst.block(0).local_element(i) -= r.block(0).local_element(i) / (*row_sums)[i];
-      }
-
-      /** p becomes P^-1 (D + B^T M^-1 A M^-1 B) p. */
-      void commute(Vector &p) const
-      {
-        matrix.block(0, 1).vmult(r.block(0), p);
-        r.block(0).scale(*inverse_mass);
-        matrix.block(0, 0).vmult(s.block(0), r.block(0));
-        s.block(0).scale(*inverse_mass);
-        matrix.block(0, 1).Tvmult(r.block(1), s.block(0));
-        matrix.block(1, 1).vmult(s.block(1), p);
-        s.block(1) += r.block(1);
-        pressure.vmult(p, s.block(1));
-      }
-    };
+      BlockVector residual;
+      residual.reinit(rhs, true);
+      matrix.vmult(residual, x);
+      residual.sadd(-1., 1., rhs);
+      return residual.l2_norm();
+    }
 
     /** Call @p action(values, their number) for each block of @p matrix; they are one after the other in memory. */
     template <typename Action>
@@ -179,8 +131,15 @@ namespace alluvium::fluid
       "Residual at which the fluid's linear solver stops, relative to the size of the terms of the equations "
       "(pressure gradient and volume flux).",
       Patterns::Double(1e-14, 0.1));
-    prm.add_parameter(
-      "Maximal iterations", max_iterations, "GMRES iterations after which a solve has failed.", Patterns::Integer(1));
+    prm.add_parameter("Maximal iterations",
+                      max_iterations,
+                      "GMRES iterations after which a solve with the preconditioner for strong convection has failed.",
+                      Patterns::Integer(1));
+    prm.add_parameter("Direct solver up to",
+                      direct_up_to,
+                      "Where GMRES fails, a direct solver is the last resort, if the fluid has no more unknowns than "
+                      "this [-]: it takes long, and in the order of 10 kB an unknown. 0: never.",
+                      Patterns::Integer(0));
     prm.add_parameter(
       "Rebuild threshold",
       rebuild_threshold,
@@ -195,6 +154,9 @@ namespace alluvium::fluid
   {
     exists     = false;
     convective = false;
+    direct.reset();
+    use_direct      = false;
+    n_direct_solves = 0;
     velocity.clear();
     coarse_velocity.clear();
     pressure.clear();
@@ -207,6 +169,8 @@ namespace alluvium::fluid
   {
     writer.put<std::uint8_t>(exists);
     writer.put<std::uint8_t>(convective);
+    writer.put<std::uint8_t>(use_direct);
+    writer.put(n_direct_solves);
     writer.put(n_when_fresh);
     writer.put(inertia_then);
     writer.put(viscosity_then);
@@ -219,6 +183,8 @@ namespace alluvium::fluid
     clear();
     const bool existed             = reader.get<std::uint8_t>() != 0;
     convective                     = reader.get<std::uint8_t>() != 0;
+    use_direct                     = reader.get<std::uint8_t>() != 0;
+    n_direct_solves                = reader.get<unsigned int>();
     n_when_fresh                   = reader.get<unsigned int>();
     scales.inertia                 = reader.get<double>();
     scales.viscosity               = reader.get<double>();
@@ -234,6 +200,12 @@ namespace alluvium::fluid
 
   void LinearSolver::build(const TrilinosWrappers::BlockSparseMatrix &matrix, const RowSums &row_sums)
   {
+    if (use_direct)
+      {
+        const std::string why_not = factorise(matrix);
+        AssertThrow(why_not.empty(), ExcMessage("The fluid's linear solver has failed. " + why_not));
+        return;
+      }
     const auto             &A    = matrix.block(0, 0);
     const Epetra_CrsMatrix &rows = A.trilinos_matrix();
     pressure.clear(); // while the matrix that its smoothers look at is still there
@@ -277,11 +249,76 @@ namespace alluvium::fluid
     data.smoother_sweeps       = convective ? 2 : 1;
     data.smoother_overlap = !convective; // as many iterations on two ranks as on one; on the velocity it would do harm
     pressure.initialize(*schur, data);
-    exists         = true;
-    fresh          = true;
+    built(matrix);
+  }
+
+
+  void LinearSolver::built(const TrilinosWrappers::BlockSparseMatrix &matrix)
+  {
+    exists = fresh = true;
     built_from     = values_of(matrix);
     inertia_then   = scales.inertia;
     viscosity_then = scales.viscosity;
+  }
+
+
+  std::string LinearSolver::factorise(const TrilinosWrappers::BlockSparseMatrix &matrix)
+  {
+    if (matrix.m() > direct_up_to)
+      return "The direct solver has not been tried: the fluid has " + std::to_string(matrix.m()) +
+             " unknowns, more than 'Fluid/Linear solver/Direct solver up to' = " + std::to_string(direct_up_to) + ".";
+    direct.reset(); // there is memory for one
+    use_direct = false;
+    direct     = std::make_unique<DirectSolver>(matrix);
+    if (direct->is_singular())
+      {
+        direct.reset();
+        exists = false;
+        return "A direct solver has failed, too: the equations are singular.";
+      }
+    use_direct = true;
+    built(matrix);
+    return "";
+  }
+
+
+  bool LinearSolver::gmres(const TrilinosWrappers::BlockSparseMatrix &matrix,
+                           const RowSums                             &row_sums,
+                           const double                               scale,
+                           const BlockVector                         &rhs,
+                           SolverControl                             &control,
+                           BlockVector                               &x) const
+  {
+    typename SolverGMRES<BlockVector>::AdditionalData data;
+    data.max_n_tmp_vectors     = convective ? 100 : 60;
+    data.right_preconditioning = true;
+    SolverGMRES<BlockVector>                  solver(control, data);
+    const TrilinosWrappers::PreconditionBase &first =
+      diffusive ? static_cast<const TrilinosWrappers::PreconditionBase &>(coarse_velocity) : velocity;
+    const bool         lumped = !convective && row_sums.largest_ratio < lumping_ratio;
+    const BlockFactors preconditioner{matrix,
+                                      first,
+                                      velocity,
+                                      pressure,
+                                      mobility,
+                                      lumped ? &row_sums.sum : nullptr,
+                                      convective ? &inverse_mass : nullptr,
+                                      scale,
+                                      rhs,
+                                      rhs};
+    x = 0.;
+    try
+      {
+        if (use_direct)
+          solver.solve(ScaledMatrix{matrix, scale}, x, rhs, ScaledFactors{*direct, scale});
+        else
+          solver.solve(ScaledMatrix{matrix, scale}, x, rhs, preconditioner);
+      }
+    catch (const SolverControl::NoConvergence &)
+      {
+        return false;
+      }
+    return true;
   }
 
 
@@ -298,63 +335,59 @@ namespace alluvium::fluid
     rhs.block(1) *= ratio;
     const double stop = std::max(tolerance * tolerance_factor, std::min(tolerance, smallest_tolerance));
     const double norm = rhs.l2_norm(), target = stop * scale[0];
-    AssertThrow(std::isfinite(norm), ExcMessage("The fluid's right-hand side is not finite."));
+    if (!std::isfinite(norm))
+      throw Divergence("The fluid's right-hand side is not finite.");
     x               = 0.;
     report.residual = norm / scale[0];
     if (norm <= target)
       return report;
 
     const RowSums row_sums(matrix.block(0, 0), scales);
+    if (use_direct && n_direct_solves == direct_solves)
+      {
+        direct.reset();
+        use_direct      = false;
+        exists          = false;
+        n_direct_solves = 0;
+      }
     if (!exists)
       build(matrix, row_sums);
-    for (bool retry = true; retry;)
+    for (bool solved = false; !solved;)
       {
-        const unsigned int limit = convective ? max_iterations : std::min(max_iterations, cheap_iterations);
-        SolverControl      control(limit, target, false, false);
-        typename SolverGMRES<BlockVector>::AdditionalData data;
-        data.max_n_tmp_vectors     = convective ? 100 : 60;
-        data.right_preconditioning = true;
-        SolverGMRES<BlockVector>                  gmres(control, data);
-        const TrilinosWrappers::PreconditionBase &first =
-          diffusive ? static_cast<const TrilinosWrappers::PreconditionBase &>(coarse_velocity) : velocity;
-        const BlockFactors preconditioner{matrix,
-                                          first,
-                                          velocity,
-                                          pressure,
-                                          mobility,
-                                          !convective && row_sums.largest_ratio < lumping_ratio ? &row_sums.sum
-                                                                                                : nullptr,
-                                          convective ? &inverse_mass : nullptr,
-                                          ratio,
-                                          rhs,
-                                          rhs};
-        x     = 0.;
-        retry = false;
-        try
-          {
-            gmres.solve(ScaledMatrix{matrix, ratio}, x, rhs, preconditioner);
-          }
-        catch (const SolverControl::NoConvergence &)
+        const unsigned int limit =
+          use_direct ? direct_iterations : std::min(max_iterations, convective ? max_iterations : cheap_iterations);
+        SolverControl control(limit, target, false, false);
+        bool          converged = gmres(matrix, row_sums, ratio, rhs, control, x);
+        // GMRES only estimates its residual: of a singular preconditioner nothing is left of it
+        const double found      = residual_norm(ScaledMatrix{matrix, ratio}, x, rhs);
+        const double acceptable = acceptable_residual * scale[0];
+        converged               = converged && found <= std::max(acceptable, 2. * target);
+        report.n_iterations     = control.last_step();
+        report.residual         = (converged ? control.last_value() : found) / scale[0];
+        solved                  = converged;
+        if (!converged && (!fresh || !convective))
           {
             // an old preconditioner gets a second chance as a fresh one, a fresh one as that for strong convection
-            if (!fresh || !convective)
-              {
-                convective = convective || fresh;
-                build(matrix, row_sums);
-                retry = true;
-                continue;
-              }
-            // GMRES stalls where round-off of large cancelling terms is above the tolerance: good enough is told, not
-            // hidden
-            report.loose = true;
-            AssertThrow(control.last_value() <= acceptable_residual * scale[0],
-                        ExcMessage("The fluid's linear solver has not converged in " + std::to_string(max_iterations) +
-                                   " iterations: relative residual " + in_digits(control.last_value() / scale[0]) +
-                                   ", tolerance " + in_digits(stop) + "."));
+            convective = convective || fresh;
+            build(matrix, row_sums);
           }
-        report.n_iterations = control.last_step();
-        report.residual     = control.last_value() / scale[0];
+        else if (!converged && found <= acceptable)
+          // it stalls where round-off of large cancelling terms is above the tolerance: good enough is told, not hidden
+          solved = report.loose = true;
+        else if (!converged)
+          {
+            const std::string why_not = use_direct
+                                          ? "These were with the factors of a direct solver: the equations are "
+                                            "singular, or nearly so."
+                                          : factorise(matrix);
+            AssertThrow(why_not.empty(),
+                        ExcMessage("The fluid's linear solver has not converged in " + std::to_string(limit) +
+                                   " iterations: relative residual " + in_digits(report.residual) + ", tolerance " +
+                                   in_digits(stop) + ". " + why_not));
+          }
       }
+    report.direct = use_direct;
+    n_direct_solves += report.direct;
     if (fresh)
       n_when_fresh = report.n_iterations;
     fresh = false;

@@ -171,7 +171,8 @@ namespace alluvium::fluid
           assembler.matrix(), residual, scale, space->constraints(), current.tolerance_factor, increment);
         report.residual = solve.residual;
         report.n_iterations += solve.n_iterations;
-        report.loose = report.loose || solve.loose;
+        report.loose  = report.loose || solve.loose;
+        report.direct = report.direct || solve.direct;
         if (solve.loose)
           attempt = 3; // no better with a second try
         if (solve.n_iterations == 0)

@@ -26,6 +26,7 @@ namespace alluvium::coupling
     unsigned int          n_iterations = 0;     // linear, over all sweeps, and of rebalance() before the step
     bool                  steady       = false; // nothing had changed: all is that of the step before
     unsigned int          n_loose      = 0;     // solves that stopped above the tolerance
+    unsigned int          n_direct     = 0;     // solves by the direct solver, after all else had failed
   };
 
   /**

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <alluvium/fluid/fluid_space.h>
+#include <alluvium/fluid/direct_solver.h>
 #include <alluvium/utilities/checked_file.h>
 
-#include <deal.II/lac/trilinos_block_sparse_matrix.h>
+#include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/trilinos_precondition.h>
 
 namespace alluvium::fluid
@@ -13,6 +13,7 @@ namespace alluvium::fluid
   {
     unsigned int n_iterations = 0;
     bool         loose        = false; // stopped above the tolerance, at an acceptable residual
+    bool         direct       = false; // with the factors of a direct solver, after all else had failed
     double       residual     = 0.;    // relative to the equations' terms
   };
 
@@ -37,6 +38,9 @@ namespace alluvium::fluid
    * it, but not with M^-1 in its place. So P = D + B^T M^-1 B, where M are sums of the rows' absolute values, and S^-1
    * = P^-1 (D + B^T M^-1 A M^-1 B) P^-1, the least-squares commutator (Elman et al., SIAM J. Sci. Comput. 27, 2006; 30,
    * 2007 for stabilised elements).
+   *
+   * Where that fails, too, the last resort are LU factors of the whole matrix, kept and rebuilt like any other
+   * preconditioner, until the others have a try again after some tens of solves.
    */
   class LinearSolver
   {
@@ -58,7 +62,7 @@ namespace alluvium::fluid
     /**
      * Solve matrix * x = right_hand_side until the residual is below the tolerance times @p scale, the norms of the two
      * equations' terms, and times @p tolerance_factor, as far as round-off allows. Where GMRES stalls above it but
-     * below 1e-5, the report says `loose`; throws if it cannot do that either.
+     * below 1e-5, the report says `loose`; throws if neither it nor a direct solver can do that. Collective.
      */
     LinearSolverReport solve(const dealii::TrilinosWrappers::BlockSparseMatrix &matrix,
                              const BlockVector                                 &right_hand_side,
@@ -70,6 +74,7 @@ namespace alluvium::fluid
     double       tolerance         = 1e-8;
     unsigned int max_iterations    = 300;
     double       rebuild_threshold = 1.7;
+    unsigned int direct_up_to      = 200000; // unknowns
 
     /** To be filled before the first solve. */
     LinearSolverScales scales;
@@ -77,11 +82,24 @@ namespace alluvium::fluid
   private:
     struct RowSums;
     void build(const dealii::TrilinosWrappers::BlockSparseMatrix &matrix, const RowSums &row_sums);
+    /** There is a preconditioner of this matrix: remember that. */
+    void built(const dealii::TrilinosWrappers::BlockSparseMatrix &matrix);
+    /** Solve from x = 0 with the present preconditioner; does its residual say that it has converged? */
+    bool gmres(const dealii::TrilinosWrappers::BlockSparseMatrix &matrix,
+               const RowSums                                     &row_sums,
+               const double                                       scale,
+               const BlockVector                                 &rhs,
+               dealii::SolverControl                             &control,
+               BlockVector                                       &x) const;
+    /** Make LU factors to go on with; else say why that cannot be. */
+    std::string factorise(const dealii::TrilinosWrappers::BlockSparseMatrix &matrix);
 
     bool                                      fresh = false, exists = false, diffusive = false, convective = false;
-    unsigned int                              n_when_fresh = 0;
+    unsigned int                              n_when_fresh = 0, n_direct_solves = 0;
     std::vector<double>                       built_from;                             // all values of the matrix
     double                                    inertia_then = 0., viscosity_then = 0.; // the scales of then
+    bool                                      use_direct = false; // also before its factors are there
+    std::unique_ptr<DirectSolver>             direct;
     Vector                                    inverse_mass;
     std::vector<double>                       mobility; // viscosity over volume, owned pressures [Pa s/m^dim]
     std::unique_ptr<Epetra_CrsMatrix>         schur;
