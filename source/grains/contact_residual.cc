@@ -99,6 +99,25 @@ namespace alluvium::grains
 #else
     Residuals *const best_residuals = residuals_plain;
 #endif
+    /** See ContactTolerance: what is missing of the impulse of the heaviest disc, over what it should be. */
+    double missing_impulse(const ContactProblem &problem)
+    {
+      double largest[2] = {0., 0.}; // velocity of a violation, impulse
+      for (const Contact &c : problem.contacts)
+        {
+          const Disc &i = problem.discs[c.i], &j = problem.discs[c.j];
+          double      rn, rt;
+          FrictionCone::solve(values(c), values(i), values(j), rn, rt);
+          const double normal = i.inverse_mass + j.inverse_mass;
+          // friction that slides is violated by what the normal impulse still changes, no more
+          largest[0] = std::max(largest[0], std::hypot(rn - c.rn, rt - c.rt) * normal);
+          largest[1] = std::max(largest[1], std::hypot(c.rn, c.rt));
+        }
+      if (problem.communicator != nullptr)
+        problem.communicator->max(largest, 2);
+      const double wanted = std::max(largest[1], problem.heaviest * problem.velocity_scale);
+      return wanted > 0. ? problem.heaviest * largest[0] / wanted : 0.;
+    }
   } // namespace
 
   void measure_residual(const ContactMeasure &measure, ContactSolution &solution)
@@ -147,6 +166,7 @@ namespace alluvium::grains
     const double scale = std::max(std::sqrt(sums.size.value() / n), problem.impulse_scale);
     solution.residual  = std::sqrt(sums.change.value() / n) / scale;
     solution.violation = std::sqrt(largest[0]) / scale;
+    solution.missing   = problem.heaviest > 0. ? missing_impulse(problem) : 0.;
   }
 
   bool is_solved(const ContactMeasure   &measure,

@@ -21,8 +21,11 @@ namespace alluvium::grains
     for (const double m : grains.mass)
       {
         sum += 1. / m;
-        if (!std::isinf(m))
-          scales.mass += m;
+        if (std::isinf(m))
+          continue;
+        scales.mass += m;
+        scales.heaviest = std::max(scales.heaviest, m);
+        scales.lightest = scales.lightest > 0. ? std::min(scales.lightest, m) : m;
       }
     scales.mean_mass = sum > 0. ? grains.n() / sum : 1.;
     return scales;

@@ -93,7 +93,10 @@ namespace alluvium::grains
                                  margins.wall_speed});
     if (!(velocity_scale > 0.))
       velocity_scale = 1e-3 * scales.d_min / h;
-    problem.impulse_scale = scales.mean_mass * velocity_scale;
+    problem.impulse_scale           = scales.mean_mass * velocity_scale;
+    constexpr double very_different = 5e3; // masses that no contact of the lighter one weighs
+    problem.heaviest                = scales.heaviest > very_different * scales.lightest ? scales.heaviest : 0.;
+    problem.velocity_scale          = velocity_scale;
 
     // Without gravity, overlaps must open also when all else has come to rest.
     const double velocity_unit =

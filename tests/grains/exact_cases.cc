@@ -321,3 +321,38 @@ TEST(ExactCases, JanssenSilo)
     EXPECT_LT(silos[k].floor / silos[k].weight, 0.9 * silos[k - 1].floor / silos[k - 1].weight);
   EXPECT_LT(silos[3].floor - silos[2].floor, 0.2 * (silos[3].weight - silos[2].weight));
 }
+
+// A heavy disc on two light ones: statically determinate, whatever the ratio of their sizes. What is not so is said.
+TEST(ExactCases, BoulderOnTwoGrains)
+{
+  using namespace alluvium::grains;
+  for (const double ratio : {10., 100., 300., 1000.})
+    for (const double dt : {1e-3, 1e-4})
+      {
+        const double small = 1e-4, big = ratio * small, gap = 3. * small;
+        test::Scene  scene;
+        scene.set("set Friction coefficient = 1\nset Wall friction coefficient = 1");
+        scene.floor();
+        scene.add(-gap, small, 0., 0., small);
+        scene.add(gap, small, 0., 0., small);
+        scene.add(0., small + std::sqrt((big + small) * (big + small) - gap * gap), 0., 0., big);
+        double weight = 0.;
+        for (const double m : scene.grains.mass)
+          weight += m * test::g;
+        const std::vector<double> y             = scene.grains.y;
+        unsigned int              n_unconverged = 0;
+        for (int step = 0; step < 20; ++step)
+          {
+            scene.step(dt);
+            double carried = 0.;
+            for (const auto &[name, force] : scene.report.wall_force)
+              carried -= force[1];
+            n_unconverged += scene.report.n_unconverged;
+            EXPECT_NEAR(carried / weight, 1., 0.03) << "ratio " << ratio << ", dt " << dt << ", step " << step;
+          }
+        if (ratio <= 300.)
+          EXPECT_EQ(n_unconverged, 0u) << "ratio " << ratio << ", dt " << dt;
+        for (std::size_t k = 0; k < 3; ++k)
+          EXPECT_NEAR(scene.grains.y[k], y[k], 0.02 * small) << "ratio " << ratio << ", dt " << dt;
+      }
+}

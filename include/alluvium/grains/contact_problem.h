@@ -77,7 +77,10 @@ namespace alluvium::grains
                                                // share no disc
     std::vector<RollingFriction> rolling{};    // of every contact, or none
     double                       impulse_scale = 1.; // smallest impulse that matters [N s/m]: mean mass * g * dt, say
-    ContactCommunicator         *communicator  = nullptr; // none on one rank
+    /** Mass of the heaviest disc that moves [kg/m] where it is thousands of times that of the lightest, else 0; and the
+     * velocity that gravity gives in the sub-step [m/s]. */
+    double               heaviest = 0., velocity_scale = 0.;
+    ContactCommunicator *communicator = nullptr; // none on one rank
 
     std::size_t n_colours() const { return colour_begin.empty() ? 0 : colour_begin.size() - 1; }
 

@@ -12,8 +12,9 @@ namespace alluvium::grains
     double                d_min = 0., d_max = 0.; // diameters [m]
     double                mean_mass = 0.; // harmonic: the light grains decide, and fixed ones do not count [kg/m]
     double                mass      = 0.; // of all that move
-    double                g         = 0.; // [m/s^2]
-    std::array<double, 2> down{};         // unit vector of gravity; zero without
+    double                lightest = 0., heaviest = 0.; // of those that move
+    double                g = 0.;                       // [m/s^2]
+    std::array<double, 2> down{};                       // unit vector of gravity; zero without
   };
 
   /** Of @p grains, at least one, under @p gravity [m/s^2]. */

@@ -17,6 +17,10 @@ namespace alluvium::grains
    * if its contact alone were solved once more, over the root mean square of the impulses (at least the problem's
    * impulse scale). Where that takes more than `patience` sweeps (grains slide, and friction is no minimisation), less
    * and less is asked: with the fourth power of the sweeps, up to the factor `loose`.
+   *
+   * A light disc's contact can hardly move the impulse that a heavy one wants of it. Where masses differ by thousands
+   * the velocity with which any contact is violated counts too: the heaviest mass times it is an impulse that is
+   * missing, and must be small against the largest impulse, or that of the heaviest disc's own weight.
    */
   struct ContactTolerance
   {
@@ -26,6 +30,7 @@ namespace alluvium::grains
     unsigned int patience   = 100;
     bool         at_rest    = false; // nothing is thought to move, as in a cold start
     unsigned int max_sweeps = 2000;  // then the solver gives up, and the caller takes a smaller sub-step
+    double       missing    = 1e-2;  // impulse of the heaviest disc; in no case less is asked
 
     double allowance(const unsigned int sweeps) const
     {
@@ -39,13 +44,14 @@ namespace alluvium::grains
   {
     bool         converged = false;
     unsigned int sweeps    = 0; // sweeps over all contacts
-    double       residual = 0., violation = 0.;
+    double       residual = 0., violation = 0., missing = 0.;
 
     /** Whether the numbers meet @p tolerance after so many sweeps. */
     bool meets(const ContactTolerance &tolerance) const
     {
       const double allowance = tolerance.allowance(sweeps);
-      return residual <= allowance * tolerance.residual && violation <= allowance * tolerance.violation;
+      return residual <= allowance * tolerance.residual && violation <= allowance * tolerance.violation &&
+             missing <= tolerance.missing;
     }
   };
 
@@ -69,8 +75,8 @@ namespace alluvium::grains
   struct SweepSums;
 
   /**
-   * The natural-map residual of the problem of @p measure as it stands: fills `residual` and `violation` of
-   * @p solution. Collective.
+   * The natural-map residual of the problem of @p measure as it stands: fills `residual`, `violation` and
+   * `missing` of @p solution. Collective.
    */
   void measure_residual(const ContactMeasure &measure, ContactSolution &solution);
 
