@@ -40,7 +40,10 @@ namespace alluvium
     options::options_description described_options()
     {
       options::options_description description("Options", 100);
-      description.add_options()("check", "read the scene, build it, report what it is, and stop; writes nothing") //
+      description.add_options()(
+        "check",
+        "read the scene, build it, report what it is, and stop; finds what a run would find before its first step, and "
+        "writes nothing") //
         ("print-parameters",
          "print all parameters with explanation, unit, default and allowed values as a parameter file (with the "
          "values of the scene, if one is given) and stop") //
@@ -102,7 +105,8 @@ namespace alluvium
            "  mpirun -np N alluvium [options] scene.prm\n\n"
         << described_options()
         << "\nA SIGINT (Ctrl-C), SIGTERM or SIGUSR1 ends a run after its present step, with a checkpoint; a second one "
-           "at once.\n\nExit codes: 0 the run has finished or a signal has ended it; 1 a mistake in the scene or the "
+           "at once,\nas does the first during the set-up.\n\nExit codes: 0 the run has finished or a signal has ended "
+           "it; 1 a mistake in the scene or the "
            "command line, or files\nthat cannot be read or written; 2 the linear solver gave up, or a mistake of the "
            "program; 3 the computation has\ndiverged. All but those before the first step leave summary.json, which "
            "says why, and a checkpoint of the last good step.\n";
@@ -150,12 +154,9 @@ namespace alluvium
       if (directory.empty())
         directory = ".";
       if (command_line.check)
-        simulation.check(directory);
+        simulation.check(prm, directory);
       else
-        {
-          install_stop_signals();
-          simulation.run(prm, directory);
-        }
+        simulation.run(prm, directory);
     }
 
     /**
@@ -210,6 +211,7 @@ namespace alluvium
     char  *name[]   = {argv[0], nullptr};
     char **mpi_argv = name;
 
+    ignore_file_limit_signal();
     const MpiEnvironment mpi(mpi_argc, mpi_argv);
     const bool           is_first_rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
 

@@ -7,6 +7,7 @@
 #include <alluvium/run/set_up.h>
 #include <alluvium/scene/declared_parameters.h>
 #include <alluvium/simulation.h>
+#include <alluvium/utilities/atomic_file.h>
 #include <alluvium/utilities/divergence.h>
 #include <alluvium/utilities/progress.h>
 #include <alluvium/utilities/signals.h>
@@ -43,12 +44,15 @@ namespace alluvium
 
     void add_parameters(ParameterHandler &prm);
     void report_scene() const;
+    void check(const ParameterHandler &prm, const std::string &directory);
     void run(const ParameterHandler &prm, const std::string &directory);
 
     run::Model  model;
     run::Output output;
 
   private:
+    void prepare(const ParameterHandler &prm, const std::string &directory, bool writes);
+    void report_restart() const;
     bool has_ended() const { return model.time >= end_time - 1e-6 * model.time_step; }
     int  advance();
     void step();
@@ -58,6 +62,9 @@ namespace alluvium
     double        end_time = 1.; // [s]
     bool          restart  = false;
     std::string   progress = "automatic";
+
+    std::unique_ptr<run::Checkpoint> checkpoint; // that a restart begins from
+    std::vector<std::string>         changes;    // of parameters, since then
   };
 
 
@@ -83,40 +90,64 @@ namespace alluvium
   }
 
 
-  void Simulation::Implementation::run(const ParameterHandler &prm, const std::string &directory)
+  /**
+   * All before the first step, and before anything is written: the folder stays as it was if scene or checkpoint are no
+   * good. With @p writes false it is only looked at.
+   */
+  void Simulation::Implementation::prepare(const ParameterHandler &prm, const std::string &directory, const bool writes)
   {
-    std::unique_ptr<run::Checkpoint> checkpoint;
-    std::vector<std::string>         changes; // of parameters, since the checkpoint
-    const scene::DeclaredParameters  declared(prm);
+    const scene::DeclaredParameters declared(prm);
     for (const auto &p : declared.parameters())
       model.parameters.emplace_back(scene::to_string(p.path), p.value);
-    {
-      // before anything is written: the folder stays as it was if scene or checkpoint are no good
-      const auto timer = model.timers.scope("set-up");
-      if (restart)
-        {
-          output.make_folder(true);
-          checkpoint = std::make_unique<run::Checkpoint>(model.communicator, output.folder().file("checkpoint"));
-          changes    = checkpoint->compare_parameters(model);
-        }
-      run::set_up(model, directory, checkpoint.get());
-      check_user(!restart || !has_ended(),
-                 "Output/Restart: the checkpoint is of t = " + in_digits(model.time) +
-                   " s, and Time/End time = " + in_digits(end_time) + " s has passed: nothing is left to do.");
-      output.choose_observers();
-      if (!restart)
-        output.make_folder(false);
-      output.open();
-    }
-    report_scene();
+    const auto        timer  = model.timers.scope("set-up");
+    const std::string remark = output.check_folder(restart, !writes);
+    if (!remark.empty())
+      model.warnings.print("a run would be refused: " + remark);
     if (restart)
       {
-        if (model.speaks)
-          {
-            std::cout << checkpoint->description(model) << std::endl;
-            for (const auto &change : changes)
-              std::cout << "  changed: " << change << std::endl;
-          }
+        if (writes)
+          output.make_folder(true);
+        checkpoint = std::make_unique<run::Checkpoint>(model.communicator, output.folder().file("checkpoint"));
+        changes    = checkpoint->compare_parameters(model);
+      }
+    run::set_up(model, directory, checkpoint.get());
+    check_user(!restart || !has_ended(),
+               "Output/Restart: the checkpoint is of t = " + in_digits(model.time) +
+                 " s, and Time/End time = " + in_digits(end_time) + " s has passed: nothing is left to do.");
+    output.choose_observers();
+    if (writes && !restart)
+      output.make_folder(false);
+    output.open();
+  }
+
+
+  void Simulation::Implementation::report_restart() const
+  {
+    if (!restart || !model.speaks)
+      return;
+    std::cout << checkpoint->description(model) << std::endl;
+    for (const auto &change : changes)
+      std::cout << "  changed: " << change << std::endl;
+  }
+
+
+  void Simulation::Implementation::check(const ParameterHandler &prm, const std::string &directory)
+  {
+    model.grain_setup.write_nothing();
+    prepare(prm, directory, false);
+    report_scene();
+    report_restart();
+  }
+
+
+  void Simulation::Implementation::run(const ParameterHandler &prm, const std::string &directory)
+  {
+    prepare(prm, directory, true);
+    install_stop_signals();
+    report_scene();
+    report_restart();
+    if (restart)
+      {
         checkpoint->resume(output);
         guard.resume(checkpoint->saved_state());
       }
@@ -124,8 +155,9 @@ namespace alluvium
     guard.begin(restart);
     try
       {
-        if (model.speaks)
-          prm.print_parameters(output.folder().file("parameters.prm"), ParameterHandler::OutputStyle::ShortPRM);
+        std::ostringstream used;
+        prm.print_parameters(used, ParameterHandler::OutputStyle::ShortPRM);
+        write_atomically(model.communicator, output.folder().file("parameters.prm"), used.str());
         if (!restart)
           output.write_beginning();
         guard.conclude(advance());
@@ -266,12 +298,9 @@ namespace alluvium
   }
 
 
-  void Simulation::check(const std::string &parameter_directory)
+  void Simulation::check(const ParameterHandler &prm, const std::string &parameter_directory)
   {
-    implementation->model.grain_setup.write_nothing();
-    run::set_up(implementation->model, parameter_directory, nullptr);
-    implementation->output.choose_observers();
-    implementation->report_scene();
+    implementation->check(prm, parameter_directory);
   }
 
 

@@ -30,8 +30,11 @@ namespace alluvium
     /** Declare every parameter of the program in @p prm and bind it to the object that uses it. */
     void add_parameters(dealii::ParameterHandler &prm);
 
-    /** Build the scene, report what it is and what it leaves out, and stop; writes no files. */
-    void check(const std::string &parameter_directory);
+    /**
+     * Build the scene, report what it is and what it leaves out, and stop; throws what run() would before its first
+     * step, and writes no files. That the output folder holds an older run is only a warning.
+     */
+    void check(const dealii::ParameterHandler &prm, const std::string &parameter_directory);
 
     /**
      * Run to the end time, or until a SIGINT or SIGTERM ends it after a step with outputs closed and a checkpoint

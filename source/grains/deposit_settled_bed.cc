@@ -1,4 +1,6 @@
 #include <alluvium/grains/deposit_box.h>
+#include <alluvium/grains/deposit_cache.h>
+#include <alluvium/grains/deposit_fit.h>
 #include <alluvium/grains/deposit_pour.h>
 #include <alluvium/grains/deposit_settle.h>
 #include <alluvium/grains/deposit_table.h>
@@ -8,26 +10,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <sstream>
+#include <tuple>
 
 namespace alluvium::grains
 {
   namespace
   {
-    /** FNV-1a: short, and the same everywhere. */
-    std::string hash(const std::string &text)
-    {
-      std::uint64_t h = 14695981039346656037ull;
-      for (const unsigned char c : text)
-        h = (h ^ c) * 1099511628211ull;
-      char digits[17];
-      std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(h));
-      return digits;
-    }
-
     std::string exact(const double value)
     {
       char text[32];
@@ -89,24 +79,26 @@ namespace alluvium::grains
       check_user(box.width() > 2. * d_min * ratio, "The deposit 'settled bed': its box is narrower than two grains.");
       check_user(!box.periodic[0] || box.width() > 4. * d_min * ratio,
                  "The deposit 'settled bed': its box is periodic and narrower than four grains.");
+      check_fits(box);
 
       // The bed settles straight down whatever way the scene is tilted.
       const double g_scene = std::hypot(context.gravity[0], context.gravity[1]), g = g_scene > 0. ? g_scene : 9.81;
       if (cache.empty())
         return checked(settle(context, box, g).first, box);
 
-      const std::string recipe = write_recipe(context, box, g), folder = path_from(context.directory, cache),
-                        file = folder + "/settled_bed_" + hash(recipe) + ".csv";
-      if (has_comment(file, recipe))
-        return checked(read_grain_table(file, context.density), box);
-      const auto [seeds, state] = settle(context, box, g);
+      const DepositCache kept(path_from(context.directory, cache), write_recipe(context, box, g));
+      std::vector<Seed>  seeds;
+      std::string        remark;
+      if (kept.read(seeds, remark))
+        return checked(seeds, box);
+      if (!remark.empty() && context.warnings)
+        context.warnings->push_back(remark);
+      SettledState state;
+      std::tie(seeds, state) = settle(context, box, g);
       if (context.may_write)
         try
           {
-            std::error_code error;
-            std::filesystem::create_directories(folder, error);
-            check_user(!error, "Cannot make the folder '" + folder + "': " + error.message() + ".");
-            write_grain_table(file, seeds, recipe + describe(state));
+            kept.write(seeds, describe(state));
           }
         catch (const UserError &error)
           {
@@ -117,6 +109,27 @@ namespace alluvium::grains
     }
 
   private:
+    /** Refuse what cannot fit before anything is poured. */
+    void check_fits(const DepositBox &box) const
+    {
+      const double area = uniform_disc_area(d_min, ratio), n = n_wanted > 0 ? n_wanted : most_grains(box, height);
+      check_number(what, n, box, d_min * ratio);
+      if (n_wanted > 0)
+        check_area(what, n, area, box);
+      else
+        check_user(height <= box.height() + 2. * d_min * ratio,
+                   "The deposit '" + std::string(what) + "' is to be " + std::to_string(height) +
+                     " m high, its box is only " + std::to_string(box.height()) + " m.");
+    }
+
+    /** Grains of a dense bed of @p height. */
+    double most_grains(const DepositBox &box, const double height) const
+    {
+      return 0.84 * box.width() * (height + 2. * d_min * ratio) / uniform_disc_area(d_min, ratio);
+    }
+
+    static constexpr const char *what = "settled bed";
+
     unsigned int n_wanted = 2000, seed = 1;
     double       height = 0., d_min = 2e-4, ratio = 1.2, friction = 0.4, packing = 0.;
     std::string  cache = "deposits", box_text;
@@ -124,7 +137,7 @@ namespace alluvium::grains
     /** Everything that makes the bed what it is; versions stand for the code. */
     std::string write_recipe(const DepositContext &context, const DepositBox &box, const double g) const
     {
-      std::string recipe = "settled bed, version 2, settled by version " + std::to_string(settling_version) + "\n";
+      std::string recipe = "settled bed, version 3, settled by version " + std::to_string(settling_version) + "\n";
       for (const auto &[name, value] : {std::make_pair("x0", box.lower[0]),
                                         std::make_pair("y0", box.lower[1]),
                                         std::make_pair("x1", box.upper[0]),
@@ -150,17 +163,6 @@ namespace alluvium::grains
            << state.speed << " m/s, support over weight " << state.support << ", mean penetration "
            << state.mean_penetration << " m\n";
       return text.str();
-    }
-
-    /** Whether @p file begins with @p comment, that is, was made by this recipe and not by one of the same hash. */
-    static bool has_comment(const std::string &file, const std::string &comment)
-    {
-      std::ifstream      in(file);
-      std::istringstream wanted(comment);
-      bool               same = in.good();
-      for (std::string line, other; same && std::getline(wanted, line);)
-        same = std::getline(in, other) && other == "# " + line;
-      return same;
     }
 
     static std::vector<Seed> checked(std::vector<Seed> seeds, const DepositBox &box)
@@ -190,6 +192,11 @@ namespace alluvium::grains
           const auto   p = pour.add(r, random);
           seeds.push_back({p[0], p[1], r, context.density});
           area += M_PI * r * r;
+          // Rolled discs lie nearly as dense as they will: a tenth of the height is more than settling gains.
+          check_user(looseness > 0. || n == 0 || p[1] < box.lower[1] + 1.15 * box.height() + 4. * d_min * ratio,
+                     "The deposit 'settled bed' cannot fit: " + std::to_string(seeds.size()) + " of its " +
+                       std::to_string(n) + " grains fill its box of " + std::to_string(box.width()) + " m x " +
+                       std::to_string(box.height()) + " m.");
         }
       return seeds;
     }

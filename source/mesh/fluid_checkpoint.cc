@@ -1,6 +1,9 @@
 #include <alluvium/mesh/fluid_checkpoint.h>
+#include <alluvium/utilities/atomic_file.h>
 #include <alluvium/utilities/checked_file.h>
+#include <alluvium/utilities/first_rank.h>
 #include <alluvium/utilities/user_error.h>
+#include <alluvium/utilities/working_folder.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/distributed/solution_transfer.h>
@@ -59,22 +62,12 @@ namespace alluvium::mesh
       return text.str();
     }
 
-    /** Call @p function on rank 0; what it throws becomes a UserError on all ranks. */
-    template <typename Function>
-    void on_first_rank(const MPI_Comm communicator, const Function &function)
+    /** What p4est and deal.II write for @p triangulation with @p n_values numbers a cell, and a little more. */
+    template <int dim>
+    double bytes_of(const Triangulation<dim> &triangulation, const double n_values)
     {
-      std::string complaint;
-      if (Utilities::MPI::this_mpi_process(communicator) == 0)
-        try
-          {
-            function();
-          }
-        catch (const std::exception &error)
-          {
-            complaint = error.what();
-          }
-      complaint = Utilities::MPI::broadcast(communicator, complaint);
-      check_user(complaint.empty(), complaint);
+      return 1.1 * (triangulation.n_global_active_cells() * (8. * n_values + 64.) + triangulation.n_cells(0) * 256.) +
+             65536.;
     }
 
     /**
@@ -169,7 +162,14 @@ namespace alluvium::mesh
           block_transfer.prepare_for_serialization(block_fields);
         if (!nodal_fields.empty())
           nodal_transfer.prepare_for_serialization(nodal_fields);
-        distributed->save(file(mesh_name));
+        // p4est aborts where it cannot write
+        check_room(communicator,
+                   file(mesh_name),
+                   bytes_of(triangulation,
+                            double(block_fields.size() * system.get_fe().n_dofs_per_cell() +
+                                   nodal_fields.size() * nodal.get_fe().n_dofs_per_cell())));
+        const WorkingFolder here(folder);
+        distributed->save(mesh_name);
       }
     else
       {
@@ -233,7 +233,8 @@ namespace alluvium::mesh
           check_user(crc32(content) == crc, "'" + path + "' is damaged: its checksum does not match.");
         }
     });
-    distributed->load(file(mesh_name));
+    const WorkingFolder here(folder);
+    distributed->load(mesh_name);
   }
 
 

@@ -1,5 +1,6 @@
 #include <alluvium/observers/statistics.h>
 #include <alluvium/utilities/atomic_file.h>
+#include <alluvium/utilities/first_rank.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/exceptions.h>
@@ -72,41 +73,40 @@ namespace alluvium::observers
   void Statistics::resume(const double time)
   {
     AssertThrow(!is_started, dealii::ExcMessage("resume() comes before the first row."));
-    if (is_writer)
-      {
-        std::ifstream old(file_name);
-        check_user(old.good(), "cannot read '" + file_name + "' to continue it: " + std::strerror(errno) + ".");
-        std::string line, kept;
-        std::getline(old, line);
-        check_user(line == header(),
-                   "'" + file_name + "' has other columns than this run; was the scene changed since?\n  it has: " +
-                     line + "\n  this run: " + header());
-        kept = line + '\n';
+    on_first_rank(communicator, [&] {
+      std::ifstream old(file_name);
+      check_user(old.good(), "cannot read '" + file_name + "' to continue it: " + std::strerror(errno) + ".");
+      std::string line, kept;
+      std::getline(old, line);
+      check_user(line == header(),
+                 "'" + file_name + "' has other columns than this run; was the scene changed since?\n  it has: " +
+                   line + "\n  this run: " + header());
+      kept = line + '\n';
 
-        // Compare with the time as it was written: rounding may have taken it past the given one.
-        const double last = std::strtod(formatted(time).c_str(), nullptr);
-        while (std::getline(old, line))
-          {
-            const bool is_whole = !old.eof() && std::count(line.begin(), line.end(), ',') + 1 == long(columns.size());
-            if (!is_whole || std::strtod(line.c_str(), nullptr) > last)
-              break;
-            kept += line + '\n';
-          }
-        old.close();
-        write_atomically(file_name, kept);
-      }
+      // Compare with the time as it was written: rounding may have taken it past the given one.
+      const double last = std::strtod(formatted(time).c_str(), nullptr);
+      while (std::getline(old, line))
+        {
+          const bool is_whole = !old.eof() && std::count(line.begin(), line.end(), ',') + 1 == long(columns.size());
+          if (!is_whole || std::strtod(line.c_str(), nullptr) > last)
+            break;
+          kept += line + '\n';
+        }
+      old.close();
+      write_atomically(file_name, kept);
+    });
     open(true);
   }
 
   void Statistics::open(const bool append)
   {
     is_started = true;
-    if (!is_writer)
-      return;
-    file.open(file_name, append ? std::ios::app : std::ios::trunc);
-    if (!append)
-      file << header() << '\n' << std::flush;
-    check_user(file.good(), "cannot write '" + file_name + "': " + std::strerror(errno) + ".");
+    on_first_rank(communicator, [&] {
+      file.open(file_name, append ? std::ios::app : std::ios::trunc);
+      if (!append)
+        file << header() << '\n' << std::flush;
+      check_user(file.good(), "cannot write '" + file_name + "': " + std::strerror(errno) + ".");
+    });
   }
 
   std::string Statistics::header() const

@@ -1,14 +1,14 @@
 #include <alluvium/observers/observer.h>
+#include <alluvium/utilities/atomic_file.h>
 
 #include <deal.II/base/data_out_base.h>
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
 
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <fstream>
+#include <sstream>
 
 namespace alluvium::observers
 {
@@ -75,12 +75,9 @@ namespace alluvium::observers
 
       void write_lines(const Snapshot &s)
       {
-        const std::string name = "force-chains-" + dealii::Utilities::int_to_string(written.size(), 5) + ".vtp";
-        written.emplace_back(s.time, name);
-        const auto forces = s.stepper->forces(s.grains); // collective
-        if (dealii::Utilities::MPI::this_mpi_process(s.communicator) != 0)
-          return;
-        std::ofstream out(s.folder + "/" + name);
+        const std::string  name   = "force-chains-" + dealii::Utilities::int_to_string(written.size(), 5) + ".vtp";
+        const auto         forces = s.stepper->forces(s.grains); // collective
+        std::ostringstream out;
         out.precision(9);
         out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n<Piece "
                "NumberOfPoints=\""
@@ -106,8 +103,11 @@ namespace alluvium::observers
         for (const auto &f : forces)
           out << f.tangential << '\n';
         out << "</DataArray>\n</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
-        std::ofstream list(s.folder + "/force-chains.pvd");
+        write_atomically(s.communicator, s.folder + "/" + name, out.str());
+        written.emplace_back(s.time, name);
+        std::ostringstream list;
         dealii::DataOutBase::write_pvd_record(list, written);
+        write_atomically(s.communicator, s.folder + "/force-chains.pvd", list.str());
       }
     };
   } // namespace

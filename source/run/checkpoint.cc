@@ -4,6 +4,7 @@
 #include <alluvium/run/output.h>
 #include <alluvium/run/restart_parameters.h>
 #include <alluvium/utilities/checked_file.h>
+#include <alluvium/utilities/first_rank.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/mpi.h>
@@ -37,12 +38,10 @@ namespace alluvium::run
     const auto timer = m.timers.scope("checkpoints");
     // a new folder takes the place of the old one only when it is complete
     const std::string folder_new = folder + ".new";
-    if (m.speaks)
-      {
-        fs::remove_all(folder_new);
-        fs::create_directories(folder_new);
-      }
-    MPI_Barrier(m.communicator);
+    on_first_rank(m.communicator, [&] {
+      fs::remove_all(folder_new);
+      fs::create_directories(folder_new);
+    });
     grains::save_grains(m.communicator, folder_new + "/grains", m.grains, m.contacts.archive());
     ByteWriter history;
     (m.has_fluid ? mesh::Partition::of(*m.triangulation) : mesh::Partition()).save(history);
@@ -77,16 +76,14 @@ namespace alluvium::run
     if (m.speaks)
       save_output(state);
     write_checked_file(m.communicator, folder_new + "/state", "state", m.speaks ? state.dump(1) : "");
-    if (m.speaks)
-      {
-        const std::string before = folder + ".before";
-        fs::remove_all(before);
-        if (fs::exists(folder))
-          fs::rename(folder, before);
-        fs::rename(folder_new, folder);
-        fs::remove_all(before);
-      }
-    MPI_Barrier(m.communicator);
+    on_first_rank(m.communicator, [&] {
+      const std::string before = folder + ".before";
+      fs::remove_all(before);
+      if (fs::exists(folder))
+        fs::rename(folder, before);
+      fs::rename(folder_new, folder);
+      fs::remove_all(before);
+    });
   }
 
 

@@ -2,6 +2,7 @@
 #include <alluvium/observers/fluid_output.h>
 #include <alluvium/run/model.h>
 #include <alluvium/run/output.h>
+#include <alluvium/utilities/first_rank.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
@@ -77,6 +78,12 @@ namespace alluvium::run
         list += (list.empty() ? "" : ", ") + name;
       }
     return names + (idle.empty() ? "" : "; left out, with nothing to measure here: " + idle);
+  }
+
+
+  std::string Output::check_folder(const bool is_restart, const bool may_hold_a_run)
+  {
+    return output_folder.check(model.communicator, is_restart, may_hold_a_run);
   }
 
 
@@ -246,7 +253,7 @@ namespace alluvium::run
       model.warnings.print(text);
     for (const auto &warning : model.warnings.all())
       summary->warn(Warnings::in_words(warning));
-    summary->write();
+    on_first_rank(model.communicator, [&] { summary->write(); });
     if (model.speaks)
       {
         double total = 0.;

@@ -219,7 +219,14 @@ namespace alluvium::run
     if (last_summary != Clock::time_point() && now - last_summary < std::chrono::seconds(30))
       return;
     last_summary = now;
-    output.write_summary_alone({"failed", "the run has not come to its end: it goes on, or was killed", -1});
+    try
+      {
+        output.write_summary_alone({"failed", "the run has not come to its end: it goes on, or was killed", -1});
+      }
+    catch (const UserError &error) // one rank's alone, and not the last summary
+      {
+        model.warnings.print(error.what());
+      }
   }
 
 

@@ -1,5 +1,6 @@
 #include <alluvium/scene/parameter_file.h>
 #include <alluvium/utilities/nearest_name.h>
+#include <alluvium/utilities/text_file.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -49,7 +50,9 @@ namespace alluvium::scene
         bool              continues = false;
         while (std::getline(stream, line))
           {
-            ++number;
+            if (++number == 1)
+              strip_byte_order_mark(line, where + "The " + quoted);
+            check_user(line.find('\0') == std::string::npos, where + "The " + quoted + " is no text.");
             if (!continues)
               {
                 text.clear();

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <new>
 #include <regex>
 #include <sstream>
 #include <thread>
@@ -51,6 +52,14 @@ namespace alluvium
     catch (const dealii::ExceptionBase &error)
       {
         return {program_failed, short_text(error)};
+      }
+    catch (const std::filesystem::filesystem_error &error)
+      {
+        return {mistake_of_user, error.what()};
+      }
+    catch (const std::bad_alloc &)
+      {
+        return {program_failed, "the memory does not suffice: fewer cells or grains need less of it."};
       }
     catch (const std::exception &error)
       {

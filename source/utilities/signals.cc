@@ -25,6 +25,11 @@ namespace alluvium
       sigaction(signal, &action, nullptr);
   }
 
+  void ignore_file_limit_signal()
+  {
+    std::signal(SIGXFSZ, SIG_IGN);
+  }
+
   int stop_requested(MPI_Comm communicator)
   {
     int mine = stop_signal, any = 0;

@@ -374,6 +374,69 @@ TEST(Deposits, SettledBedWithoutACache)
   std::filesystem::remove_all(c.directory);
 }
 
+// A cache that was cut off, altered or is no file is made anew, with a word, to the same bits.
+TEST(Deposits, SettledBedAndADamagedCache)
+{
+  auto c                      = context();
+  c.directory                 = "/tmp/alluvium_damaged_cache_" + std::to_string(getpid());
+  const std::string     p     = "set Number of grains = 100\n";
+  const auto            whole = make("settled bed", p, c);
+  std::filesystem::path file;
+  for (const auto &entry : std::filesystem::directory_iterator(c.directory + "/deposits"))
+    file = entry.path();
+  std::stringstream kept;
+  kept << std::ifstream(file).rdbuf();
+  const std::string text = kept.str();
+
+  std::vector<std::string> warnings;
+  c.warnings                   = &warnings;
+  const auto  last_line        = text.rfind('\n', text.size() - 2) + 1;
+  std::string altered          = text;
+  altered[altered.size() - 20] = altered[altered.size() - 20] == '1' ? '2' : '1';
+  for (const std::string &bad : {text.substr(0, text.size() / 3), text.substr(0, last_line), altered, std::string()})
+    {
+      std::ofstream(file) << bad;
+      warnings.clear();
+      EXPECT_TRUE(same(whole, make("settled bed", p, c)));
+      ASSERT_EQ(warnings.size(), 1u);
+      EXPECT_NE(warnings[0].find("is cut off or was altered"), std::string::npos) << warnings[0];
+      warnings.clear();
+      EXPECT_TRUE(same(whole, make("settled bed", p, c))); // mended
+      EXPECT_TRUE(warnings.empty());
+    }
+  std::filesystem::remove(file);
+  std::filesystem::create_directory(file);
+  EXPECT_TRUE(same(whole, make("settled bed", p, c)));
+  EXPECT_EQ(warnings.size(), 2u); // it is a folder, and it cannot be replaced
+  std::filesystem::remove_all(c.directory);
+}
+
+// What cannot fit is refused by its area, before anything is poured; and numbers that are a mistake of the unit.
+TEST(Deposits, WhatCannotFitIsRefusedAtOnce)
+{
+  const auto message = [](const std::string &deposit, const std::string &text) -> std::string {
+    try
+      {
+        make(deposit, text + "\nset Box = 0, 0, 0.01, 0.02");
+      }
+    catch (const UserError &error)
+      {
+        return error.what();
+      }
+    return "";
+  };
+  const std::string bed = "set Cache folder =\nset Smallest diameter = 5e-4\nset Number of grains = ";
+  for (const std::string n : {"10000", "100000", "4000000"})
+    EXPECT_NE(message("settled bed", bed + n).find("cannot fit"), std::string::npos) << n;
+  EXPECT_NE(message("settled bed", bed + "0\nset Bed height = 0.1").find("its box is only"), std::string::npos);
+  EXPECT_EQ(message("settled bed", bed + "100"), "");
+  for (const std::string &text : {std::string("set Cache folder =\nset Smallest diameter = 1e-7\nset Number of grains "
+                                              "= 0\nset Bed height = 1e-2")})
+    EXPECT_NE(message("settled bed", text).find("in mm?"), std::string::npos);
+  EXPECT_NE(message("lattice", "set Diameter = 1e-8").find("in mm?"), std::string::npos);
+  EXPECT_NE(message("random suspension", "set Smallest diameter = 1e-8").find("in mm?"), std::string::npos);
+}
+
 TEST(Deposits, SettledBedByHeight)
 {
   const auto c     = context();
@@ -441,6 +504,10 @@ TEST(Deposits, FileErrorsNameTheLine)
   };
   has(message_of("x,y\n0,0\n"), "'radius' is missing");
   has(message_of("x,y,radius,colour\n"), "line 1: there is no column 'colour'");
+  has(message_of("\xEF\xBB\xBFx,y,radius\n1,2\n"), "line 2: found 2 fields");
+  has(message_of("\xFF\xFEx"), "saved as UTF-16");
+  has(message_of("x;y;radius\n0,5;1;2\n"), "line 1: the columns are not separated by commas");
+  has(message_of("x,y,radius\r0,0,-1\r"), "line 2: the radius");
   has(message_of("x,y,radius,x\n"), "twice");
   has(message_of("x,y,radius\n0,0,1\n0,nan,1\n"), "line 3: y = 'nan' is not a finite number");
   has(message_of("x,y,radius\n0,0,0\n"), "line 2: the radius must be positive");

@@ -25,11 +25,14 @@ namespace alluvium::observers
     /** Files `<folder>/<name>-00000.vtu` and so on. */
     FieldSeries(const std::string &folder, const std::string &name, const bool hdf5, MPI_Comm communicator);
 
-    /** Write the patches of @p data, which are cells of kind @p cell. Collective. */
+    /**
+     * Write the patches of @p data, which are cells of kind @p cell. Throws UserError if the disk does not take them;
+     * then nothing is listed that is not whole. Collective.
+     */
     template <int dim>
     void write(dealii::DataOutInterface<dim, 2> &data, const dealii::ReferenceCell &cell, const double time);
 
-    /** What a checkpoint keeps, and how an interrupted run goes on. */
+    /** What a checkpoint keeps, and how an interrupted run goes on; collective. */
     nlohmann::ordered_json state() const;
     void                   resume(const nlohmann::ordered_json &state);
 
@@ -40,6 +43,11 @@ namespace alluvium::observers
       std::string file, xdmf;
     };
 
+    template <int dim>
+    void write_hdf5(dealii::DataOutInterface<dim, 2> &data,
+                    const dealii::ReferenceCell      &cell,
+                    const double                      time,
+                    const std::string                &file);
     void write_list() const;
 
     const std::string  folder, name;

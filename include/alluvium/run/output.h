@@ -40,6 +40,9 @@ namespace alluvium::run
 
     const observers::OutputFolder &folder() const { return output_folder; }
 
+    /** As OutputFolder::check(). Collective. */
+    std::string check_folder(bool is_restart, bool may_hold_a_run);
+
     /** Make the folder that the run writes to, or with @p is_restart check that it is there. Collective. */
     void make_folder(bool is_restart);
 

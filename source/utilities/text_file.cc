@@ -1,0 +1,44 @@
+#include <alluvium/utilities/text_file.h>
+#include <alluvium/utilities/user_error.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace alluvium
+{
+  void strip_byte_order_mark(std::string &text, const std::string &what)
+  {
+    const auto begins_with = [&](const char *const mark) { return text.compare(0, std::strlen(mark), mark) == 0; };
+    check_user(!begins_with("\xFF\xFE") && !begins_with("\xFE\xFF"),
+               what + " is saved as UTF-16 ('Unicode'); save it as UTF-8 or plain text.");
+    if (begins_with("\xEF\xBB\xBF"))
+      text.erase(0, 3);
+  }
+
+
+  std::string read_text_file(const std::string &file, const std::string &what)
+  {
+    const std::string named = what + " '" + file + "'";
+    std::error_code   error;
+    check_user(std::filesystem::exists(file, error), "There is no " + named + ".");
+    check_user(!std::filesystem::is_directory(file, error), "The " + named + " is a folder.");
+    errno = 0;
+    std::ifstream      in(file, std::ios::binary);
+    std::ostringstream all;
+    check_user(in.good(), "Cannot open the " + named + ": " + std::strerror(errno) + ".");
+    if (in.peek() != std::ifstream::traits_type::eof())
+      all << in.rdbuf();
+    check_user(!in.bad() && !all.fail(), "Cannot read the " + named + ".");
+    std::string text = all.str();
+    strip_byte_order_mark(text, "The " + named);
+    check_user(text.find('\0') == std::string::npos, "The " + named + " is no text: it holds zero bytes.");
+    if (text.find('\n') == std::string::npos) // an old Macintosh's line ends
+      for (char &c : text)
+        if (c == '\r')
+          c = '\n';
+    return text;
+  }
+} // namespace alluvium

@@ -1,0 +1,64 @@
+#include <alluvium/utilities/text_file.h>
+#include <alluvium/utilities/user_error.h>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+using namespace alluvium;
+
+namespace
+{
+  std::string text_of(const std::string &bytes)
+  {
+    const std::string file = "/tmp/alluvium_text_" + std::to_string(getpid());
+    std::ofstream(file, std::ios::binary) << bytes;
+    std::string result;
+    try
+      {
+        result = read_text_file(file, "table");
+      }
+    catch (const UserError &error)
+      {
+        result = std::string("error: ") + error.what();
+      }
+    std::filesystem::remove(file);
+    return result;
+  }
+
+  bool contains(const std::string &text, const std::string &part)
+  {
+    return text.find(part) != std::string::npos;
+  }
+} // namespace
+
+TEST(TextFile, ByteOrderMarks)
+{
+  EXPECT_EQ(text_of("x,y\n1,2\n"), "x,y\n1,2\n");
+  EXPECT_EQ(text_of("\xEF\xBB\xBFx,y\n1,2\n"), "x,y\n1,2\n");
+  EXPECT_EQ(text_of("\xEF\xBB\xBF"), "");
+  EXPECT_EQ(text_of(""), "");
+  EXPECT_TRUE(contains(text_of(std::string("\xFF\xFEx\0,\0", 6)), "saved as UTF-16"));
+  EXPECT_TRUE(contains(text_of(std::string("\xFE\xFF\0x\0,", 6)), "saved as UTF-16"));
+}
+
+TEST(TextFile, OtherThings)
+{
+  EXPECT_EQ(text_of("x,y\r1,2\r"), "x,y\n1,2\n");
+  EXPECT_EQ(text_of("x,y\r\n1,2\r\n"), "x,y\r\n1,2\r\n"); // whoever reads lines trims them
+  EXPECT_TRUE(contains(text_of(std::string("PK\0\0", 4)), "is no text"));
+  for (const auto &[path, what] : {std::make_pair("/tmp", "The table '/tmp' is a folder."),
+                                   std::make_pair("/no-such-file", "There is no table '/no-such-file'.")})
+    try
+      {
+        read_text_file(path, "table");
+        FAIL();
+      }
+    catch (const UserError &error)
+      {
+        EXPECT_STREQ(error.what(), what);
+      }
+}
