@@ -10,8 +10,12 @@ namespace alluvium::coupling
     lower = {{*std::min_element(x.begin(), x.end()), *std::min_element(y.begin(), y.end())}};
     const std::array<double, 2> upper = {
       {*std::max_element(x.begin(), x.end()), *std::max_element(y.begin(), y.end())}};
+    // discs that lie far apart must not cost the memory of all the bins in between
+    while (((upper[0] - lower[0]) / this->width + 1.) * ((upper[1] - lower[1]) / this->width + 1.) >
+           1024. + 8. * x.size())
+      this->width *= 1.5;
     for (unsigned int d = 0; d < 2; ++d)
-      n[d] = 1 + static_cast<int>((upper[d] - lower[d]) / width);
+      n[d] = 1 + static_cast<int>((upper[d] - lower[d]) / this->width);
     begin.assign(n[0] * n[1] + 1, 0);
     std::vector<int> bin(x.size());
     for (std::size_t g = 0; g < x.size(); ++g)

@@ -1,4 +1,5 @@
 #include <alluvium/grains/deposit_box.h>
+#include <alluvium/grains/deposit_fit.h>
 #include <alluvium/utilities/plugin.h>
 
 #include <cmath>
@@ -35,6 +36,8 @@ namespace alluvium::grains
                  "The deposit 'lattice' has a spacing of " + std::to_string(a / diameter) +
                    " diameters: the discs overlap.");
       const DepositBox box = parse_deposit_box(box_text, context);
+
+      check_number("lattice", box.width() / a * (box.height() / a), box, diameter);
 
       // As many whole cells as fit, centred in the box.
       const int nx = static_cast<int>(box.width() / a + 1e-9), ny = static_cast<int>(box.height() / a + 1e-9);

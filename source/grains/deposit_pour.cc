@@ -8,7 +8,7 @@ namespace alluvium::grains
 {
   Pour::Pour(const DepositBox &box, const double largest_radius, const double looseness)
     : box(box)
-    , cell(2. * largest_radius)
+    , cell(std::max(2. * largest_radius, box.width() / 5e4)) // a wide box of few discs must not cost memory
     , column_width(box.periodic[0] ? box.width() / static_cast<int>(box.width() / cell) : cell)
     , looseness(looseness)
     , n_columns(static_cast<int>(box.width() / cell) + (box.periodic[0] ? 0 : 1))

@@ -1,4 +1,5 @@
 #include <alluvium/grains/deposit_box.h>
+#include <alluvium/grains/deposit_fit.h>
 #include <alluvium/grains/random_numbers.h>
 #include <alluvium/utilities/plugin.h>
 
@@ -29,8 +30,9 @@ namespace alluvium::grains
     std::vector<Seed> make(const DepositContext &context) const override
     {
       check_user(d_min > 0., "The deposit 'random suspension' needs a positive 'Smallest diameter'.");
-      const DepositBox    box  = parse_deposit_box(box_text, context);
-      const double        area = box.width() * box.height();
+      const DepositBox box  = parse_deposit_box(box_text, context);
+      const double     area = box.width() * box.height();
+      check_number("random suspension", area_fraction * area / uniform_disc_area(d_min, ratio), box, d_min * ratio);
       RandomNumbers       random(seed);
       std::vector<double> radii;
       for (double filled = 0.;;)
@@ -44,7 +46,10 @@ namespace alluvium::grains
       check_user(!radii.empty(), "The deposit 'random suspension' has no grains: not one disc fits its area fraction.");
       std::sort(radii.rbegin(), radii.rend()); // the large ones first, while there is room
 
-      const double cell = d_min * ratio + gap;
+      // Few discs in a wide box need few cells.
+      double cell = d_min * ratio + gap;
+      while (area / (cell * cell) > 1e4 + 8. * radii.size())
+        cell *= 1.5;
       // In a periodic direction the cells fill the box.
       const auto n_cells = [&](const double length, const bool periodic) {
         return periodic ? std::max(1, static_cast<int>(length / cell)) : static_cast<int>(length / cell) + 1;

@@ -20,8 +20,9 @@ namespace alluvium::grains
     if (!(left < right && bottom < top))
       return 0.;
 
-    // Vertical lines, so close that every disc is cut by some fifty.
-    const double spacing = *std::min_element(grains.radius.begin(), grains.radius.end()) / 25.;
+    // Vertical lines, so close that every disc is cut by some fifty; or, where sizes differ by thousands, a million.
+    const double spacing =
+      std::max(*std::min_element(grains.radius.begin(), grains.radius.end()) / 25., 1e-6 * (right - left));
     const auto   n_lines = static_cast<long>(std::ceil((right - left) / spacing));
     const double step    = (right - left) / n_lines;
     double       length  = 0.;

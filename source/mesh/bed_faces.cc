@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace alluvium::mesh
@@ -103,24 +104,29 @@ namespace alluvium::mesh
     if (grains.n() == 0 || right <= left)
       return result;
 
-    const auto   n_columns = static_cast<std::size_t>(std::max(1., std::round((right - left) / (8. * d))));
+    // A box may be many columns wide and hold few grains: only columns that have some cost anything.
+    const double n_columns = std::max(1., std::round((right - left) / (8. * d)));
     const double width     = (right - left) / n_columns;
-    std::vector<std::vector<std::pair<double, double>>> bottoms(n_columns), tops(n_columns);
+    struct Levels
+    {
+      std::vector<std::pair<double, double>> bottoms, tops;
+    };
+    std::map<double, Levels> columns; // by number
     for (std::size_t i = 0; i < grains.n(); ++i)
       {
         const double position = (grains.x[i] - left) / width;
-        const auto   column   = static_cast<std::size_t>(std::clamp(position, 0., n_columns - 1.));
+        Levels      &column   = columns[std::floor(std::clamp(position, 0., n_columns - 1.))];
         const double r = grains.radius[i], area = pi * r * r;
-        bottoms[column].emplace_back(grains.y[i] - r, area);
-        tops[column].emplace_back(-grains.y[i] - r, area); // negative: from the top down
+        column.bottoms.emplace_back(grains.y[i] - r, area);
+        column.tops.emplace_back(-grains.y[i] - r, area); // negative: from the top down
       }
     const double quarter_layer = 0.25 * d * width;
-    for (std::size_t c = 0; c < n_columns; ++c)
+    for (auto &[c, levels] : columns)
       {
-        std::sort(bottoms[c].begin(), bottoms[c].end());
-        std::sort(tops[c].begin(), tops[c].end());
+        std::sort(levels.bottoms.begin(), levels.bottoms.end());
+        std::sort(levels.tops.begin(), levels.tops.end());
         double bottom, top;
-        if (level_with(bottoms[c], quarter_layer, bottom) && level_with(tops[c], quarter_layer, top))
+        if (level_with(levels.bottoms, quarter_layer, bottom) && level_with(levels.tops, quarter_layer, top))
           result.columns.push_back({left + c * width, left + (c + 1) * width, bottom, std::max(bottom, -top)});
       }
     return result;

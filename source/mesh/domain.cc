@@ -2,6 +2,7 @@
 #include <alluvium/mesh/domain.h>
 #include <alluvium/mesh/gmsh_file.h>
 #include <alluvium/mesh/straight_sides.h>
+#include <alluvium/utilities/text_file.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/mpi.h>
@@ -88,6 +89,12 @@ namespace alluvium::mesh
       "Largest cell of the rectangle's mesh [m]. 0: from the refinement criteria, which measure in grain "
       "diameters. Needed without grains.",
       Patterns::Double(0.));
+    prm.add_parameter("Max diameters across",
+                      max_diameters,
+                      "A domain that is more mean grain diameters wide or high than this, and all but empty of grains, "
+                      "is taken for one "
+                      "in millimetres, and refused.",
+                      Patterns::Double(1.));
     prm.add_parameter(
       "Open to grains",
       open_to_grains,
@@ -197,6 +204,7 @@ namespace alluvium::mesh
     content = Utilities::MPI::broadcast(communicator, content);
     check_user(content[1].empty(), "Domain/Mesh file: '" + mesh_path + "' " + content[1]);
     mesh_text = content[0];
+    strip_byte_order_mark(mesh_text, "Domain/Mesh file: '" + mesh_path + "'");
 
     const GmshFile file = read_gmsh_file(mesh_text, mesh_path);
     triangles           = file.n_triangles > 0;

@@ -1,6 +1,7 @@
 #include <alluvium/run/checkpoint.h>
 #include <alluvium/run/mesh_changes.h>
 #include <alluvium/run/model.h>
+#include <alluvium/run/scene_size.h>
 #include <alluvium/run/set_up.h>
 
 #include <deal.II/base/numbers.h>
@@ -41,6 +42,8 @@ namespace alluvium::run
                                               m.cell_weights,
                                               partition ? partition->owners : std::vector<types::subdomain_id>());
       m.adaptivity.check_mesh(*mesh);
+      if (!from)
+        check_mesh_size(m, mesh->n_global_active_cells());
       if (from)
         from->load_mesh(*mesh);
       else
@@ -143,6 +146,7 @@ namespace alluvium::run
                           ? m.domain.coarse_cell_size()
                           : m.adaptivity.coarse_size(m.refinement_context());
         m.touched.assign(m.grains.n(), 0);
+        check_scene_size(m);
       }
     const double largest = 2. * *std::max_element(m.grains.radius.begin(), m.grains.radius.end());
     if (m.has_fluid)

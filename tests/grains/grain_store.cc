@@ -3,6 +3,7 @@
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/grid/tria.h>
 #include <deal.II/particles/particle_handler.h>
 
 #include <gtest/gtest.h>
@@ -96,6 +97,27 @@ namespace
         EXPECT_GT(store.n_local_grains(), 300u);
       }
     expect_equal(store.gather(), grains);
+  }
+
+  // The grid goes with the grains, not with the box over their diameter squared.
+  TEST(GrainStore, FewGrainsInAWideBox)
+  {
+    for (const double radius : {1e-2, 1e-4, 1e-7, 1e-15, 1e-30})
+      for (const double height : {1., 1e-3})
+        {
+          auto grains = make_grains(3, radius);
+          for (double &y : grains.y)
+            y *= height;
+          GrainStore store(MPI_COMM_WORLD);
+          store.initialize(grains, {{0., 0.}}, {{1., height}}, 0.1 * radius);
+          for (const auto &particle : store.particles())
+            EXPECT_LE(particle.get_surrounding_cell()->get_triangulation().n_global_active_cells(), 4096u);
+          expect_equal(store.gather(), grains);
+          for (double &x : grains.x)
+            x = 1. - x;
+          store.scatter(grains);
+          expect_equal(store.gather(), grains);
+        }
   }
 
   TEST(GrainStore, FollowsMotionOverManySteps)

@@ -10,7 +10,8 @@ namespace alluvium::coupling
   class GrainBins
   {
   public:
-    /** Bins of side @p width [m] for discs, at least one, at (@p x, @p y) [m]. */
+    /** Bins of side @p width [m], or wider if they were many more than discs, for discs, at least one, at (@p x, @p y)
+     * [m]. */
     GrainBins(const std::vector<double> &x, const std::vector<double> &y, double width);
 
     /** All discs whose centres may lie in the box, in rising order. */

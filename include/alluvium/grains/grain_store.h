@@ -25,7 +25,7 @@ namespace alluvium::grains
   /**
    * Owns the grains: a deal.II ParticleHandler on a coarse uniform grid of the grains' own, distributed over the ranks.
    * A cell is at least as wide as the largest grain plus the search skin, so that one layer of ghost cells holds every
-   * contact partner.
+   * contact partner; wider where there would be more than 4096 and an eighth a grain.
    *
    * Computing is done on replicated arrays: gather(), change them, scatter().
    */

@@ -92,6 +92,9 @@ namespace alluvium::mesh
      */
     void check_mesh(const dealii::Triangulation<dim, dim> &triangulation) const;
 
+    /** The parameter `Max cells`. */
+    double most_cells() const { return max_cells; }
+
   private:
     AdaptationReport run(dealii::Triangulation<dim, dim> &triangulation,
                          const RefinementContext         &context,

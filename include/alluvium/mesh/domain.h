@@ -59,6 +59,9 @@ namespace alluvium::mesh
     /** The parameter `Coarse cell size` [m], 0 if the grains decide. */
     double coarse_cell_size() const { return coarse_size; }
 
+    /** The parameter `Max diameters across`. */
+    double most_diameters() const { return max_diameters; }
+
     /**
      * The unrefined mesh, distributed over all ranks. A rectangle has cells as square as possible with sides of at most
      * @p cell_size [m] (a hair more where rounding makes them square). Cells of a file are as they are. What may be
@@ -90,7 +93,7 @@ namespace alluvium::mesh
 
     dealii::Point<dim> lower_corner, upper_corner;
     std::string        mesh_file, open_to_grains, periodic_directions;
-    double             coarse_size = 0.;
+    double             coarse_size = 0., max_diameters = 2e4;
 
     MPI_Comm                                          communicator;
     std::string                                       mesh_text, mesh_path;
