@@ -4,6 +4,7 @@
 #include <alluvium/utilities/text_file.h>
 #include <alluvium/utilities/user_error.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -60,10 +61,14 @@ namespace alluvium::grains
         const auto        table = text.find("\nx,");
         if (text.compare(0, made_by.size(), made_by) == 0 && table != std::string::npos)
           {
-            seeds                   = parse_grain_table(text, file, 0.);
-            const std::string whole = as_comment(contents(seeds.size(), text.substr(table + 1)));
+            const std::string rows  = text.substr(table + 1);
+            const auto        n     = std::count(rows.begin(), rows.end(), '\n') - 1;
+            const std::string whole = as_comment(contents(n, rows));
             if (table + 1 >= whole.size() && text.compare(table + 1 - whole.size(), whole.size(), whole) == 0)
-              return true;
+              {
+                seeds = parse_grain_table(text, file, 0.);
+                return true;
+              }
           }
         remark = "The settled bed in '" + file + "' is cut off or was altered: it is made anew.";
       }
