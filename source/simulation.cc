@@ -1,3 +1,4 @@
+#include <alluvium/run/check_boundaries.h>
 #include <alluvium/run/checkpoint.h>
 #include <alluvium/run/mesh_changes.h>
 #include <alluvium/run/model.h>
@@ -49,6 +50,7 @@ namespace alluvium
 
     run::Model  model;
     run::Output output;
+    double      end_time = 1.; // [s]
 
   private:
     void prepare(const ParameterHandler &prm, const std::string &directory, bool writes);
@@ -59,7 +61,6 @@ namespace alluvium
     void count_step();
 
     run::RunGuard guard;
-    double        end_time = 1.; // [s]
     bool          restart  = false;
     std::string   progress = "automatic";
 
@@ -114,6 +115,7 @@ namespace alluvium
     check_user(!restart || !has_ended(),
                "Output/Restart: the checkpoint is of t = " + in_digits(model.time) +
                  " s, and Time/End time = " + in_digits(end_time) + " s has passed: nothing is left to do.");
+    run::check_boundaries(model, end_time);
     output.choose_observers();
     if (writes && !restart)
       output.make_folder(false);

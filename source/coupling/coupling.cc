@@ -136,7 +136,7 @@ namespace alluvium::coupling
     const CouplingReport before               = last;
     const bool           moved                = update_void_fraction(grains);
     const auto           inputs               = [&] { return inputs_of(grains, touched, dt, fixed); };
-    const bool           same_boundary_values = solver->has_boundary_values(boundary_conditions);
+    const bool           same_boundary_values = solver->has_boundary_values(boundary_conditions, eps);
     if (!moved && same_boundary_values && still && inputs() == last_inputs)
       {
         last              = before;
@@ -277,6 +277,7 @@ namespace alluvium::coupling
   {
     state.gravity       = {{solver->gravity[0], solver->gravity[1]}};
     state.fluid_density = solver->properties.density;
+    state.unsupported   = {{solver->unsupported_weight()[0], solver->unsupported_weight()[1]}};
     evaluate(map, *space, solver->old(), state.old);
     state.latest = state.old;
     if (rotation)

@@ -121,7 +121,7 @@ namespace alluvium::coupling
   std::array<double, 2> CouplingState::reduced_weight(const std::size_t g) const
   {
     const double m = grains.mass[g] - fluid_density * volume(g);
-    return {{m * gravity[0], m * gravity[1]}};
+    return {{m * gravity[0] + volume(g) * unsupported[0], m * gravity[1] + volume(g) * unsupported[1]}};
   }
 
 

@@ -1,9 +1,13 @@
 #include <alluvium/fluid/boundary_conditions.h>
+#include <alluvium/utilities/expression.h>
 #include <alluvium/utilities/user_error.h>
 
-#include <deal.II/base/function_parser.h>
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
 
 namespace alluvium::fluid
 {
@@ -30,11 +34,25 @@ namespace alluvium::fluid
                       "and the constants rho (fluid density), g (magnitude of gravity), H (height of the domain), L "
                       "(height of the bed at "
                       "t = 0) and pi, for instance `top: 0; bottom: rho*g*H*(1 + t)`.");
+    prm.add_parameter("Velocity",
+                      velocity,
+                      "Boundaries with a given velocity [m/s], as `name: u_x | u_y; ...`, each component an expression "
+                      "as under Pressure.");
     prm.add_parameter(
-      "Velocity",
-      velocity,
-      "Boundaries with a given fluid velocity [m/s], as `name: u_x | u_y; ...`, each component an expression "
-      "as under Pressure.");
+      "Given velocity",
+      given_velocity,
+      "What a given velocity is. `superficial`: that of the mixture, a flux by area: what enters is its integral over "
+      "the "
+      "boundary, whatever grains lie there and however large the cells are; the fluid between the grains is the "
+      "faster. "
+      "`interstitial`: that of the fluid between the grains; the flux is the less the more grains there are.",
+      Patterns::Selection("superficial|interstitial"));
+    prm.add_parameter(
+      "Add hydrostatic pressure",
+      hydrostatic,
+      "Names of boundaries under Pressure to whose pressure that of the fluid at rest is added, which vanishes at the "
+      "domain's highest level: with `left: 12.8; right: 0` and both named here, 12.8 Pa drive the flow at every level. "
+      "Without it the given pressure is all there is.");
     prm.add_parameter(
       "Pressure on inflow",
       pressure_on_inflow,
@@ -45,9 +63,11 @@ namespace alluvium::fluid
       "more leaves than enters is taken from fluid at rest in both cases; where flow leaves, it is the static "
       "pressure.",
       Patterns::Selection("static|total"));
-    prm.add_parameter("Pin pressure",
-                      pin_pressure,
-                      "In a box closed all around, fix the pressure at one node (its level is arbitrary there).");
+    prm.add_parameter(
+      "Pin pressure",
+      pin_pressure,
+      "In a box closed all around, fix the pressure at one node (its level is arbitrary there). Where a "
+      "boundary has a pressure this does nothing.");
     prm.leave_subsection();
   }
 
@@ -72,25 +92,11 @@ namespace alluvium::fluid
     };
     const auto parse_function =
       [&](const std::string &where, const std::string &text, const unsigned int n_components) {
-        auto                           f          = std::make_shared<FunctionParser<dim>>(n_components);
         const std::vector<std::string> components = Utilities::split_string_list(text, '|');
         check_user(components.size() == n_components,
                    where + ": expected " + std::to_string(n_components) + " expression(s) separated by '|', got '" +
                      text + "'.");
-        try
-          {
-            f->initialize(FunctionParser<dim>::default_variable_names() + ",t", components, constants, true);
-            f->value(Point<dim>());
-          }
-        catch (const std::exception &)
-          {
-            std::string names;
-            for (const auto &[name, value] : constants)
-              names += ", " + name;
-            throw UserError(where + ": cannot understand the expression '" + text + "'; it may use x, y, t" + names +
-                            ".");
-          }
-        return f;
+        return parse_expressions(where, components, constants);
       };
 
     for (const auto &name : Utilities::split_string_list(no_slip))
@@ -108,10 +114,19 @@ namespace alluvium::fluid
           const std::string where = std::string("Boundary conditions/") + parameter;
           check_user(colon != std::string::npos, where + ": expected `name: expression`, got '" + item + "'.");
           const std::string name = Utilities::trim(item.substr(0, colon));
+          const std::string text = Utilities::trim(item.substr(colon + 1));
           add(parameter,
               name,
-              {kind, name, parse_function(where, Utilities::trim(item.substr(colon + 1)), n_components)});
+              {kind, name, parse_function(where + ": boundary '" + name + "'", text, n_components), text});
         }
+
+    for (const auto &name : Utilities::split_string_list(hydrostatic))
+      {
+        const auto it = ids.find(name);
+        check_user(it != ids.end() && conditions.count(it->second) && conditions.at(it->second).kind == Kind::pressure,
+                   "Boundary conditions/Add hydrostatic pressure: '" + name + "' is no boundary under 'Pressure'.");
+        conditions.at(it->second).add_hydrostatic = true;
+      }
 
     bool pressure_is_fixed = pin_pressure;
     for (const auto &[name, id] : ids)
@@ -130,11 +145,58 @@ namespace alluvium::fluid
 
 
   template <int dim>
-  void BoundaryConditions<dim>::set_time(const double time)
+  void BoundaryConditions<dim>::set_time(const double new_time)
   {
+    time = new_time;
     for (auto &[id, condition] : conditions)
       if (condition.value)
         condition.value->set_time(time);
+  }
+
+
+  template <int dim>
+  double BoundaryConditions<dim>::value(const Condition   &condition,
+                                        const Point<dim>  &point,
+                                        const unsigned int component) const
+  {
+    double value = condition.value->value(point, component);
+    if (!std::isfinite(value))
+      {
+        std::ostringstream text;
+        text << "Boundary conditions/" << (condition.kind == Kind::pressure ? "Pressure" : "Velocity") << ": boundary '"
+             << condition.name << "': '" << condition.text << "' is " << value << " at x = " << point[0]
+             << ", y = " << point[1] << ", t = " << time << "; expected a finite number.";
+        throw UserError(text.str());
+      }
+    if (condition.add_hydrostatic)
+      value += hydrostatic_gradient * (point - hydrostatic_origin);
+    return value;
+  }
+
+
+  template <int dim>
+  bool BoundaryConditions<dim>::velocity_depends_on_time() const
+  {
+    return std::any_of(conditions.begin(), conditions.end(), [](const auto &entry) {
+      const Condition &c = entry.second;
+      return c.kind == Kind::velocity && (c.text.empty() || mentions(c.text, "t"));
+    });
+  }
+
+
+  template <int dim>
+  bool BoundaryConditions<dim>::has_pressure() const
+  {
+    return std::any_of(
+      conditions.begin(), conditions.end(), [](const auto &entry) { return entry.second.kind == Kind::pressure; });
+  }
+
+
+  template <int dim>
+  void BoundaryConditions<dim>::set_hydrostatic_pressure(const Tensor<1, dim> &gradient, const Point<dim> &origin)
+  {
+    hydrostatic_gradient = gradient;
+    hydrostatic_origin   = origin;
   }
 
 

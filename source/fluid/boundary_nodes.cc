@@ -14,13 +14,45 @@ namespace alluvium::fluid
 
   namespace
   {
-    template <typename Cell>
-    bool is_on_face(const Cell &cell, const unsigned int f, const unsigned int v)
+    /** Shape functions of a cell at the Gauss points of a part of its face. */
+    template <int dim>
+    struct PartValues
     {
-      for (const unsigned int w : cell->face(f)->vertex_indices())
-        if (cell->face(f)->vertex_index(w) == cell->vertex_index(v))
-          return true;
-      return false;
+      std::vector<std::array<double, max_nodes<dim>>>                  phi;
+      std::vector<std::array<std::array<double, dim>, max_nodes<dim>>> grad;
+      std::vector<double>                                              jxw;
+
+      /** @p face has the values at the Gauss points of the whole face, whose ends are the nodes @p vertex. */
+      PartValues(const FEFaceValues<dim>           &face,
+                 const geometry::FacePart          &part,
+                 const std::array<unsigned int, 2> &vertex)
+        : phi(face.n_quadrature_points)
+        , grad(face.n_quadrature_points)
+        , jxw(face.n_quadrature_points)
+      {
+        // what is linear along the face, from its values at two points of it
+        const double s_0 = face.shape_value(vertex[1], 0), s_1 = face.shape_value(vertex[1], 1);
+        for (unsigned int q = 0; q < face.n_quadrature_points; ++q)
+          {
+            const double s = part.begin + (q == 0 ? s_0 : s_1) * (part.end - part.begin), t = (s - s_0) / (s_1 - s_0);
+            jxw[q] = face.JxW(q) * (part.end - part.begin);
+            for (unsigned int v = 0; v < face.dofs_per_cell; ++v)
+              {
+                phi[q][v] = part.is_whole() ? face.shape_value(v, q)
+                                            : (1. - t) * face.shape_value(v, 0) + t * face.shape_value(v, 1);
+                for (unsigned int d = 0; d < dim; ++d)
+                  grad[q][v][d] = part.is_whole() ? face.shape_grad(v, q)[d]
+                                                  : (1. - t) * face.shape_grad(v, 0)[d] + t * face.shape_grad(v, 1)[d];
+              }
+          }
+      }
+    };
+
+    /** Are faces with these normals of one line, or of a curved wall, rather than of a corner? */
+    template <int dim>
+    bool in_line(const Tensor<1, dim> &a, const Tensor<1, dim> &b)
+    {
+      return std::abs(a * b) >= 0.9; // within about 26 degrees
     }
 
     /** Hold the velocity along the mean of @p normals, or all of it at a corner. */
@@ -29,10 +61,9 @@ namespace alluvium::fluid
                         const std::array<types::global_dof_index, dim + 1> &dof,
                         AffineConstraints<double>                          &constraints)
     {
-      const Tensor<1, dim> first  = normals.front();
-      const bool           corner = std::any_of(normals.begin(), normals.end(), [&](const auto &m) {
-        return std::abs(m * first) < 0.9; // steeper than about 26 degrees: a corner, not a curved wall
-      });
+      const Tensor<1, dim> first = normals.front();
+      const bool           corner =
+        std::any_of(normals.begin(), normals.end(), [&](const auto &m) { return !in_line(m, first); });
       if (corner)
         {
           for (unsigned int c = 0; c < dim; ++c)
@@ -88,58 +119,104 @@ namespace alluvium::fluid
               const auto id = cell->face(f)->boundary_id();
               if (space.periodic_box().length[id / 2 % dim] > 0.)
                 continue; // no boundary: the mesh goes on at the other side
-              const auto &condition = boundary_conditions.all().at(id);
               face_values.reinit(nodal_cell, f);
-              for (unsigned int v = 0; v < n_nodes; ++v)
+              const Tensor<1, dim>        normal = face_values.normal_vector(0);
+              std::array<unsigned int, 2> vertex{};
+              std::array<Point<dim>, 2>   end;
+              for (unsigned int e = 0; e < 2; ++e)
                 {
-                  // nodes are vertices; FE_SimplexP has no has_support_on_face() of its own
-                  if (!is_on_face(cell, f, v))
+                  end[e] = cell->face(f)->vertex(e);
+                  for (unsigned int v = 0; v < n_nodes; ++v)
+                    if (cell->vertex_index(v) == cell->face(f)->vertex_index(e))
+                      vertex[e] = v; // nodes are vertices
+                }
+              const double length = end[0].distance(end[1]);
+              for (const auto &part : space.divide_face(id, end[0], end[1]))
+                {
+                  const auto &condition = boundary_conditions.all().at(part.id);
+                  for (unsigned int e = 0; e < 2; ++e)
+                    {
+                      const bool touches  = e == 0 ? part.has_first() : part.has_second();
+                      const bool velocity = condition.kind == Kind::velocity;
+                      const auto index    = cell_nodes[vertex[e]];
+                      Node      &node     = nodes[index];
+                      for (unsigned int c = 0; c <= dim; ++c)
+                        node.dof[c] = cell_dofs[system_fe.component_to_system_index(c, vertex[e])];
+                      node.point = end[e];
+                      node.faces.push_back({part.id,
+                                            condition.kind,
+                                            normal,
+                                            0.5 * length * (part.end - part.begin),
+                                            touches,
+                                            part.is_whole()});
+                      if (touches || velocity)
+                        node.kinds.emplace(condition.kind, part.id);
+                      if (touches)
+                        on_boundary[part.id].insert(index);
+                    }
+                  if (condition.kind != Kind::velocity && condition.kind != Kind::pressure)
                     continue;
-                  Node &node = nodes[cell_nodes[v]];
-                  for (unsigned int c = 0; c <= dim; ++c)
-                    node.dof[c] = cell_dofs[system_fe.component_to_system_index(c, v)];
-                  node.point = cell->vertex(v);
-                  node.kinds.emplace(condition.kind, id);
-                  if (condition.kind == Kind::slip)
-                    node.slip_normals.push_back(face_values.normal_vector(0));
-                  on_boundary[id].insert(cell_nodes[v]);
-                }
-              if (condition.kind == Kind::velocity && cell->is_locally_owned())
-                {
-                  InflowFace<dim> face;
-                  face.cell = my_index;
-                  for (unsigned int q = 0; q < quadrature.size(); ++q)
+                  const PartValues<dim> values(face_values, part, vertex);
+                  if (condition.kind == Kind::velocity)
                     {
-                      std::array<double, max_nodes<dim>> phi{};
-                      for (unsigned int v = 0; v < n_nodes; ++v)
-                        phi[v] = face_values.shape_value(v, q);
-                      face.phi.push_back(phi);
-                      face.normal_jxw.push_back(face_values.normal_vector(q) * face_values.JxW(q));
+                      InflowFace<dim> face{cell->is_locally_owned(),
+                                           my_index,
+                                           part.id,
+                                           vertex,
+                                           {{cell_nodes[vertex[0]], cell_nodes[vertex[1]]}},
+                                           end,
+                                           part.begin,
+                                           part.end,
+                                           normal,
+                                           values.phi,
+                                           {}};
+                      for (const double w : values.jxw)
+                        face.normal_jxw.push_back(normal * w);
+                      inflow.push_back(face);
                     }
-                  inflow.push_back(face);
-                }
-              if (condition.kind == Kind::pressure && cell->is_locally_owned())
-                {
-                  // half a quadrilateral's; of triangles those that touch with a corner add as much as this one
-                  const double  depth = (n_nodes == dim + 1 ? 1. : 0.5) * cell->measure() / cell->face(f)->measure();
-                  OpenFace<dim> face{my_index, id, depth, {}, {}, {}, {}};
-                  for (unsigned int q = 0; q < quadrature.size(); ++q)
+                  if (condition.kind == Kind::pressure && cell->is_locally_owned())
                     {
-                      auto &phi  = face.phi.emplace_back();
-                      auto &grad = face.grad.emplace_back();
-                      for (unsigned int v = 0; v < n_nodes; ++v)
-                        {
-                          phi[v] = face_values.shape_value(v, q);
-                          for (unsigned int d = 0; d < dim; ++d)
-                            grad[v][d] = face_values.shape_grad(v, q)[d];
-                        }
-                      face.normal.push_back(face_values.normal_vector(q));
-                      face.jxw.push_back(face_values.JxW(q));
+                      // half a quadrilateral's; of triangles those that touch with a corner add as much as this one
+                      const double depth = (n_nodes == dim + 1 ? 1. : 0.5) * cell->measure() / length;
+                      open.push_back({my_index,
+                                      part.id,
+                                      depth,
+                                      values.phi,
+                                      values.grad,
+                                      std::vector<Tensor<1, dim>>(quadrature.size(), normal),
+                                      values.jxw});
                     }
-                  open.push_back(face);
                 }
             }
       }
+  }
+
+
+  template <int dim>
+  std::vector<Tensor<1, dim>> BoundaryNodes<dim>::Node::normals_of(const Kind kind) const
+  {
+    std::vector<Tensor<1, dim>> result;
+    for (const auto &face : faces)
+      if (face.kind == kind && face.touches)
+        result.push_back(face.normal);
+    return result;
+  }
+
+
+  template <int dim>
+  const typename BoundaryNodes<dim>::HalfFace *BoundaryNodes<dim>::Node::inflow() const
+  {
+    const auto it = kinds.find(Kind::velocity);
+    if (it == kinds.end())
+      return nullptr;
+    const auto face = std::find_if(faces.begin(), faces.end(), [&](const auto &f) { return f.boundary == it->second; });
+    // beside a slot that ends before the node, flow through an open boundary is free; at corners walls win
+    if (!face->touches && kinds.count(Kind::pressure) > 0)
+      return nullptr;
+    for (const auto &normal : normals_of(Kind::no_slip))
+      if (!in_line(normal, face->normal))
+        return nullptr;
+    return &*face;
   }
 
 
@@ -162,16 +239,51 @@ namespace alluvium::fluid
         };
         if (const auto it = node.kinds.find(Kind::pressure); it != node.kinds.end())
           prescribe(dim, it->second);
-        if (node.kinds.count(Kind::no_slip))
+        if (const auto *inflow = node.inflow())
+          for (unsigned int c = 0; c < dim; ++c)
+            prescribe(c, inflow->boundary);
+        else if (node.kinds.count(Kind::no_slip))
           for (unsigned int c = 0; c < dim; ++c)
             fix(node, c);
-        else if (const auto it = node.kinds.find(Kind::velocity); it != node.kinds.end())
-          for (unsigned int c = 0; c < dim; ++c)
-            prescribe(c, it->second);
-        else if (!node.slip_normals.empty())
-          constrain_slip<dim>(node.slip_normals, node.dof, constraints);
+        else if (const auto normals = node.normals_of(Kind::slip); !normals.empty())
+          constrain_slip<dim>(normals, node.dof, constraints);
       }
     return prescribed;
+  }
+
+
+  template <int dim>
+  double BoundaryNodes<dim>::share(const types::global_dof_index node, const types::boundary_id id) const
+  {
+    double mine = 0., all = 0.;
+    for (const auto &face : nodes.at(node).faces)
+      if (face.kind == Kind::pressure && face.touches)
+        {
+          all += face.length;
+          if (face.boundary == id)
+            mine += face.length;
+        }
+    return mine > 0. ? mine / all : 1.;
+  }
+
+
+  template <int dim>
+  std::map<types::global_dof_index, InflowNode<dim>> BoundaryNodes<dim>::inflow_nodes() const
+  {
+    std::map<types::global_dof_index, InflowNode<dim>> result;
+    for (const auto &[index, node] : nodes)
+      if (const auto *inflow = node.inflow())
+        {
+          InflowNode<dim> n{inflow->boundary, node.point, true, 0., inflow->normal};
+          for (const auto &face : node.faces)
+            if (in_line(face.normal, n.normal))
+              {
+                n.length += face.length;
+                n.whole = n.whole && face.whole && face.boundary == n.boundary;
+              }
+          result[index] = n;
+        }
+    return result;
   }
 
 

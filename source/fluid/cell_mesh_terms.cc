@@ -56,12 +56,16 @@ namespace alluvium::fluid
         const auto                  phi        = state.space.shape_values()[q];
         const auto                  grad       = state.cell->grad[q];
         const double                jxw        = state.cell->jxw[q];
-        const double                inertia    = state.value(state.eps, phi) * rho / state.problem.dt;
+        const double                eps        = state.value(state.eps, phi);
+        const double                inertia    = eps * rho / state.problem.dt;
         const std::array<double, n> streamline = state.advect(grad, phi);
         std::array<double, dim>     force{};
         for (unsigned int d = 0; d < dim; ++d)
-          for (unsigned int v = 0; v < n; ++v)
-            force[d] += inertia * phi[v] * state.u_start[v][d];
+          {
+            for (unsigned int v = 0; v < n; ++v)
+              force[d] += inertia * phi[v] * state.u_start[v][d];
+            force[d] += eps * state.problem.drive[d];
+          }
         double source = 0.;
         if (state.problem.body_force || state.problem.mass_source)
           {

@@ -80,6 +80,11 @@ namespace alluvium::fluid
           for (unsigned int v = 0; v < n; ++v)
             for (unsigned int d = 0; d < dim; ++d)
               galerkin += mass * streamline[v] * x[v * (dim + 1) + d] * at.u[d];
+          double drive = 0.;
+          for (unsigned int d = 0; d < dim; ++d)
+            drive += jxw * eps * problem.drive[d] * at.u[d];
+          sum.body += drive;
+          galerkin -= drive;
           if (problem.body_force || problem.mass_source)
             {
               Point<dim> place;
@@ -197,10 +202,11 @@ namespace alluvium::fluid
           sum.boundaries -= carried_out(state, x, face.phi, normal_jxw);
         }
       for (const auto &face : space.inflow_faces())
-        {
-          state.reinit(face.cell);
-          sum.boundaries -= carried_out(state, state.values(solution), face.phi, face.normal_jxw);
-        }
+        if (face.owned)
+          {
+            state.reinit(face.cell);
+            sum.boundaries -= carried_out(state, state.values(solution), face.phi, face.normal_jxw);
+          }
     }
   } // namespace
 

@@ -100,6 +100,14 @@ namespace alluvium::fluid
 
 
   template <int dim>
+  std::vector<geometry::FacePart>
+  FluidSpace<dim>::divide_face(const types::boundary_id id, const Point<dim> &a, const Point<dim> &b) const
+  {
+    return geometry::divide_face(parts, id, {{a[0], a[1]}}, {{b[0], b[1]}});
+  }
+
+
+  template <int dim>
   void FluidSpace<dim>::number_by_nodes()
   {
     // Cuthill and McKee's order starts from the one that it finds, which must not depend on the mesh's history
@@ -138,8 +146,9 @@ namespace alluvium::fluid
   void FluidSpace<dim>::make_constraints(const BoundaryConditions<dim> &boundary_conditions)
   {
     const BoundaryNodes<dim> boundary(*this, boundary_conditions);
-    inflow = boundary.inflow;
-    open   = boundary.open;
+    inflow    = boundary.inflow;
+    inflow_at = boundary.inflow_nodes();
+    open      = boundary.open;
     open_ids.clear();
     for (const auto &[id, condition] : boundary_conditions.all())
       if (condition.kind == BoundaryConditions<dim>::Kind::pressure)
@@ -163,7 +172,11 @@ namespace alluvium::fluid
         Vector weight = make_nodal_field();
         for (const auto index : boundary.nodes_of(id))
           if (nodal_partitioner->in_local_range(index))
-            weight(index) = 1.;
+            weight(index) = boundary.share(index, id);
+        check_user(condition.kind != BoundaryConditions<dim>::Kind::pressure || weight.linfty_norm() > 0.,
+                   "Boundary conditions/Pressure: no node of the fluid's mesh lies on '" + condition.name +
+                     "': it is narrower than a cell there. Make the cells smaller, or give a velocity, whose flux is "
+                     "exact on cells of any size.");
         interpolate_hanging_nodes(weight);
         auto        &list       = boundary_weights[id];
         unsigned int cell_index = 0;
@@ -280,12 +293,12 @@ namespace alluvium::fluid
                                                 const Tensor<1, dim>                       &hydrostatic_gradient,
                                                 const double                                datum,
                                                 const std::map<types::boundary_id, double> &deficits,
+                                                const GivenVelocities                      &velocities,
                                                 const Action                               &action) const
   {
     const types::global_dof_index first_pressure = partitioners[0]->size();
     for (const PrescribedDof<dim> &b : boundary_dofs)
       {
-        const Function<dim> &value = *boundary_conditions.all().at(b.boundary).value;
         if (b.component == dim)
           {
             if (partitioners[1]->in_local_range(b.dof - first_pressure))
@@ -293,12 +306,12 @@ namespace alluvium::fluid
                 const auto deficit = deficits.find(b.boundary);
                 action(1,
                        b.dof - first_pressure,
-                       value.value(b.point) - hydrostatic_gradient * b.point - datum -
-                         (deficit == deficits.end() ? 0. : deficit->second));
+                       boundary_conditions.value(boundary_conditions.all().at(b.boundary), b.point) -
+                         hydrostatic_gradient * b.point - datum - (deficit == deficits.end() ? 0. : deficit->second));
               }
           }
         else if (partitioners[0]->in_local_range(b.dof))
-          action(0, b.dof, value.value(b.point, b.component));
+          action(0, b.dof, velocities.at(b.dof / dim)[b.component]); // velocities are numbered as their nodes
       }
   }
 
@@ -308,6 +321,7 @@ namespace alluvium::fluid
                                               const Tensor<1, dim>                       &hydrostatic_gradient,
                                               const double                                datum,
                                               const std::map<types::boundary_id, double> &deficits,
+                                              const GivenVelocities                      &velocities,
                                               BlockVector                                &field) const
   {
     field.zero_out_ghost_values();
@@ -315,6 +329,7 @@ namespace alluvium::fluid
                             hydrostatic_gradient,
                             datum,
                             deficits,
+                            velocities,
                             [&](const unsigned int block, const types::global_dof_index dof, const double value) {
                               field.block(block)(dof) = value;
                             });
@@ -328,6 +343,7 @@ namespace alluvium::fluid
                                             const Tensor<1, dim>                       &hydrostatic_gradient,
                                             const double                                datum,
                                             const std::map<types::boundary_id, double> &deficits,
+                                            const GivenVelocities                      &velocities,
                                             const BlockVector                          &field) const
   {
     int same = 1;
@@ -335,6 +351,7 @@ namespace alluvium::fluid
                             hydrostatic_gradient,
                             datum,
                             deficits,
+                            velocities,
                             [&](const unsigned int block, const types::global_dof_index dof, const double value) {
                               if (field.block(block)(dof) != value)
                                 same = 0;
@@ -355,7 +372,8 @@ namespace alluvium::fluid
       if (b.component == dim && b.dof < first)
         {
           first = b.dof;
-          value = boundary_conditions.all().at(b.boundary).value->value(b.point) - hydrostatic_gradient * b.point;
+          value = boundary_conditions.value(boundary_conditions.all().at(b.boundary), b.point) -
+                  hydrostatic_gradient * b.point;
         }
     const auto lowest = Utilities::MPI::min(first, communicator());
     if (lowest == nowhere)

@@ -10,13 +10,13 @@ namespace alluvium::fluid
 
   namespace
   {
-    /** Where edge a-b crosses height y, as the weight of b; false if it does not or is level. */
+    /** Where edge a-b crosses the line on which coordinate axis is y, as the weight of b; false if it does not. */
     template <int dim>
-    bool crossing(const Point<dim> &a, const Point<dim> &b, const double y, double &weight)
+    bool crossing(const Point<dim> &a, const Point<dim> &b, const unsigned int axis, const double y, double &weight)
     {
-      if ((a[1] <= y) == (b[1] <= y))
+      if ((a[axis] <= y) == (b[axis] <= y))
         return false;
-      weight = (y - a[1]) / (b[1] - a[1]);
+      weight = (y - a[axis]) / (b[axis] - a[axis]);
       return true;
     }
   } // namespace
@@ -26,15 +26,17 @@ namespace alluvium::fluid
   double line_average(const FluidSpace<dim>                                                         &space,
                       const BlockVector                                                             &solution,
                       const double                                                                   y_wanted,
-                      const std::function<double(const std::array<double, dim> &u, const double p)> &function)
+                      const std::function<double(const std::array<double, dim> &u, const double p)> &function,
+                      const unsigned int                                                             axis)
   {
-    const unsigned int n   = space.n_nodes_per_cell();
+    const unsigned int across = 1 - axis;
+    const unsigned int n      = space.n_nodes_per_cell();
     double             top = -std::numeric_limits<double>::infinity(), bottom = -top;
     for (const auto &cell : space.cells())
       for (unsigned int v = 0; v < n; ++v)
         {
-          top    = std::max(top, cell.vertex[v][1]);
-          bottom = std::min(bottom, cell.vertex[v][1]);
+          top    = std::max(top, cell.vertex[v][axis]);
+          bottom = std::min(bottom, cell.vertex[v][axis]);
         }
     top    = Utilities::MPI::max(top, space.communicator());
     bottom = Utilities::MPI::min(bottom, space.communicator());
@@ -54,9 +56,9 @@ namespace alluvium::fluid
           {
             const auto [a, b] = n == 4 ? quad[e] : tri[e];
             double weight;
-            if (n_crossings < 2 && crossing(cell.vertex[a], cell.vertex[b], y, weight))
+            if (n_crossings < 2 && crossing(cell.vertex[a], cell.vertex[b], axis, y, weight))
               {
-                x[n_crossings++] = cell.vertex[a][0] + weight * (cell.vertex[b][0] - cell.vertex[a][0]);
+                x[n_crossings++] = cell.vertex[a][across] + weight * (cell.vertex[b][across] - cell.vertex[a][across]);
                 for (const auto &[v, w] : {std::make_pair(a, 1. - weight), std::make_pair(b, weight)})
                   {
                     p += 0.5 * w * solution.block(1).local_element(cell.pressure[v]);
@@ -80,5 +82,6 @@ namespace alluvium::fluid
   template double line_average<2>(const FluidSpace<2> &,
                                   const BlockVector &,
                                   const double,
-                                  const std::function<double(const std::array<double, 2> &, const double)> &);
+                                  const std::function<double(const std::array<double, 2> &, const double)> &,
+                                  const unsigned int);
 } // namespace alluvium::fluid

@@ -9,6 +9,8 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/sparsity_tools.h>
 
+#include <algorithm>
+
 namespace alluvium::fluid
 {
   using namespace dealii;
@@ -148,24 +150,16 @@ namespace alluvium::fluid
           constraints.distribute_local_to_global(local_matrix, local_dofs, system_matrix);
           constraints.distribute_local_to_global(local_residual, local_dofs, residual);
         }
-      // prescribed inflow: the boundary term of the continuity equation, with the iterate's boundary values
-      for (const auto &face : space->inflow_faces())
+      // the boundary term of the continuity equation where the velocity is given
+      for (std::size_t i = 0; problem.given_fluxes && i < space->inflow_faces().size(); ++i)
         {
+          const InflowFace<dim> &face = space->inflow_faces()[i];
+          if (!face.owned)
+            continue;
           const CellData<dim> &cell = space->cells()[face.cell];
           local_residual            = 0.;
-          for (unsigned int q = 0; q < face.phi.size(); ++q)
-            {
-              double eps = 0., flux = 0.;
-              for (unsigned int v = 0; v < n / (dim + 1); ++v)
-                {
-                  eps += problem.void_fraction->local_element(cell.node[v]) * face.phi[q][v];
-                  for (unsigned int d = 0; d < dim; ++d)
-                    flux +=
-                      iterate.block(0).local_element(cell.velocity[v][d]) * face.phi[q][v] * face.normal_jxw[q][d];
-                }
-              for (unsigned int v = 0; v < n / (dim + 1); ++v)
-                local_residual(v * (dim + 1) + dim) -= eps * flux * face.phi[q][v];
-            }
+          for (unsigned int e = 0; e < 2; ++e)
+            local_residual(face.vertex[e] * (dim + 1) + dim) -= (*problem.given_fluxes)[i][e];
           for (unsigned int r = 0; r < n; ++r)
             local_dofs[r] = cell.dofs[r];
           constraints.distribute_local_to_global(local_residual, local_dofs, residual);
@@ -236,6 +230,17 @@ namespace alluvium::fluid
             }
         }
     });
+    // what comes in where the velocity is given close by
+    const auto &weights = space->weights_at(id);
+    for (std::size_t i = 0; problem.given_fluxes && i < space->inflow_faces().size(); ++i)
+      {
+        const InflowFace<dim> &face = space->inflow_faces()[i];
+        const auto             w    = std::lower_bound(
+          weights.begin(), weights.end(), face.cell, [](const auto &w, const unsigned int c) { return w.cell < c; });
+        if (face.owned && w != weights.end() && w->cell == face.cell)
+          for (unsigned int e = 0; e < 2; ++e)
+            sum -= w->weight[face.vertex[e]] * (*problem.given_fluxes)[i][e];
+      }
     return Utilities::MPI::sum(sum, space->communicator());
   }
 

@@ -50,6 +50,7 @@ namespace alluvium::fluid
       discretisation.open_boundary = {
         has("traction"), has("upwinding"), has("advection"), has("tangential"), has("backflow")};
     });
+    driving.add_parameters(prm);
     linear_solver.add_parameters(prm);
     prm.leave_subsection();
   }
@@ -60,8 +61,11 @@ namespace alluvium::fluid
   {
     linear_solver.clear(); // first: it looks at the assembler's matrix
     assembler.reinit();
-    auto &volumes = linear_solver.scales.volumes;
-    volumes       = space->make_field();
+    given.clear();
+    boundary_fluxes.clear();
+    current.given_fluxes = nullptr;
+    auto &volumes        = linear_solver.scales.volumes;
+    volumes              = space->make_field();
     for (const CellData<dim> &cell : space->cells())
       for (unsigned int v = 0; v < space->n_nodes_per_cell(); ++v)
         {
@@ -85,7 +89,7 @@ namespace alluvium::fluid
   template <int dim>
   void VansSolver<dim>::choose_datum(const BoundaryConditions<dim> &boundary_conditions)
   {
-    pressure_datum = space->pressure_datum(boundary_conditions, properties.density * gravity);
+    pressure_datum = space->pressure_datum(boundary_conditions, background_gradient());
   }
 
 
@@ -100,13 +104,45 @@ namespace alluvium::fluid
 
 
   template <int dim>
-  bool VansSolver<dim>::has_boundary_values(const BoundaryConditions<dim> &boundary_conditions) const
+  void VansSolver<dim>::update_given(const BoundaryConditions<dim> &boundary_conditions, const Vector &void_fraction)
   {
-    return space->has_boundary_values(boundary_conditions,
-                                      properties.density * gravity,
-                                      pressure_datum,
-                                      pressure_deficits(boundary_conditions, iterate),
-                                      iterate);
+    given.update(*space, boundary_conditions, void_fraction);
+    driving.set_time(boundary_conditions.current_time());
+  }
+
+
+  template <int dim>
+  std::array<double, dim> VansSolver<dim>::drive() const
+  {
+    const Tensor<1, dim>    sum = unsupported_weight() + driving.body_force();
+    std::array<double, dim> result;
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] = sum[d];
+    return result;
+  }
+
+
+  template <int dim>
+  bool VansSolver<dim>::has_boundary_values(const BoundaryConditions<dim> &boundary_conditions,
+                                            const Vector                  &void_fraction)
+  {
+    update_given(boundary_conditions, void_fraction);
+    const bool same_values = space->has_boundary_values(boundary_conditions,
+                                                        background_gradient(),
+                                                        pressure_datum,
+                                                        pressure_deficits(boundary_conditions, iterate),
+                                                        given.node_values(),
+                                                        iterate);
+    return same_values && (!has_begun || (drive() == current.drive && background_gradient() == latest_gradient));
+  }
+
+
+  template <int dim>
+  std::map<types::boundary_id, double> VansSolver<dim>::given_fluxes(const BoundaryConditions<dim> &boundary_conditions,
+                                                                     const Vector                  &void_fraction)
+  {
+    has_boundary_values(boundary_conditions, void_fraction); // looks at all of them
+    return given.boundary_fluxes(*space, boundary_conditions);
   }
 
 
@@ -124,10 +160,17 @@ namespace alluvium::fluid
       }
     linear_solver.scales.inertia   = properties.density / current.dt;
     linear_solver.scales.viscosity = properties.viscosity;
+    update_given(boundary_conditions, *current.void_fraction);
+    current.given_fluxes = &given.face_fluxes();
+    current.drive        = drive();
+    latest_gradient      = background_gradient();
+    has_begun            = true;
+    boundary_fluxes      = given.boundary_fluxes(*space, boundary_conditions);
     space->apply_boundary_values(boundary_conditions,
-                                 properties.density * gravity,
+                                 background_gradient(),
                                  pressure_datum,
                                  pressure_deficits(boundary_conditions, previous),
+                                 given.node_values(),
                                  iterate);
   }
 

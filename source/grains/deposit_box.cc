@@ -40,6 +40,8 @@ namespace alluvium::grains
     const bool            good = static_cast<bool>(in >> v[0] >> v[1] >> v[2] >> v[3]) && !(in >> rest);
     check_user(good, "Box = " + text + ": expected four numbers, xmin, ymin, xmax, ymax.");
     check_user(v[0] < v[2] && v[1] < v[3], "Box = " + text + ": it has no inside. Expected xmin, ymin, xmax, ymax.");
-    return with_seams({{{v[0], v[1]}}, {{v[2], v[3]}}}, context.periodicity);
+    std::array<double, 2> lower = {{v[0], v[1]}}, upper = {{v[2], v[3]}};
+    context.upright.turn(lower, upper);
+    return with_seams({lower, upper}, context.periodicity);
   }
 } // namespace alluvium::grains

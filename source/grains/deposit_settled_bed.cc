@@ -70,6 +70,8 @@ namespace alluvium::grains
         "that made them; not where it cannot be written. Empty: settle anew every time.");
     }
 
+    bool falls() const override { return true; }
+
     std::vector<Seed> make(const DepositContext &context) const override
     {
       check_user(d_min > 0., "The deposit 'settled bed' needs a positive 'Smallest diameter'.");
@@ -81,7 +83,7 @@ namespace alluvium::grains
                  "The deposit 'settled bed': its box is periodic and narrower than four grains.");
       check_fits(box);
 
-      // The bed settles straight down whatever way the scene is tilted.
+      // The bed settles along the axis nearest to gravity, whatever way the scene is tilted.
       const double g_scene = std::hypot(context.gravity[0], context.gravity[1]), g = g_scene > 0. ? g_scene : 9.81;
       if (cache.empty())
         return checked(settle(context, box, g).first, box);

@@ -78,13 +78,17 @@ namespace alluvium::mesh
 
   double BedFaces::distance_to_top(const std::array<double, 2> &lower, const std::array<double, 2> &upper) const
   {
-    return distance(columns, &Column::top, lower, upper);
+    std::array<double, 2> low = lower, high = upper;
+    upright.turn(low, high);
+    return distance(columns, &Column::top, low, high);
   }
 
 
   double BedFaces::distance_to_bottom(const std::array<double, 2> &lower, const std::array<double, 2> &upper) const
   {
-    return distance(columns, &Column::bottom, lower, upper);
+    std::array<double, 2> low = lower, high = upper;
+    upright.turn(low, high);
+    return distance(columns, &Column::bottom, low, high);
   }
 
 
@@ -97,8 +101,24 @@ namespace alluvium::mesh
   }
 
 
-  BedFaces find_bed_faces(const grains::GrainArrays &grains, const double left, const double right)
+  BedFaces find_bed_faces(const grains::GrainArrays &grains,
+                          const double               left,
+                          const double               right,
+                          const geometry::Upright   &upright)
   {
+    if (!upright.is_default())
+      {
+        grains::GrainArrays turned = grains;
+        for (std::size_t i = 0; i < grains.n(); ++i)
+          {
+            const auto at = upright.to({{grains.x[i], grains.y[i]}});
+            turned.x[i]   = at[0];
+            turned.y[i]   = at[1];
+          }
+        BedFaces result = find_bed_faces(turned, left, right);
+        result.upright  = upright;
+        return result;
+      }
     BedFaces     result;
     const double d = mean_diameter(grains);
     if (grains.n() == 0 || right <= left)

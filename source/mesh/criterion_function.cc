@@ -1,7 +1,7 @@
 #include <alluvium/mesh/refinement_criterion.h>
+#include <alluvium/utilities/expression.h>
 #include <alluvium/utilities/plugin.h>
 
-#include <deal.II/base/function_parser.h>
 #include <deal.II/base/numbers.h>
 
 #include <algorithm>
@@ -28,19 +28,9 @@ namespace alluvium::mesh
       void prepare(const RefinementContext &context) override
       {
         if (!function)
-          {
-            function = std::make_unique<dealii::FunctionParser<2>>();
-            try
-              {
-                function->initialize("x,y,t", text, {{"d", context.grain_diameter}, {"pi", dealii::numbers::PI}}, true);
-                function->value({0., 0.});
-              }
-            catch (const std::exception &)
-              {
-                throw UserError("Mesh refinement/Criteria: function/Cell size: cannot understand '" + text +
-                                "'; expected a formula in x, y and t, such as `if(y < 0.1, 1, 4)`.");
-              }
-          }
+          function = parse_expressions("Mesh refinement/Criteria: function/Cell size",
+                                       {text},
+                                       {{"d", context.grain_diameter}, {"pi", dealii::numbers::PI}});
         function->set_time(context.time);
       }
 
@@ -63,8 +53,8 @@ namespace alluvium::mesh
       }
 
     private:
-      std::string                                text = "4";
-      std::unique_ptr<dealii::FunctionParser<2>> function;
+      std::string                          text = "4";
+      std::shared_ptr<dealii::Function<2>> function;
     };
   } // namespace
 

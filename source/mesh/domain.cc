@@ -96,6 +96,14 @@ namespace alluvium::mesh
                       "in millimetres, and refused.",
                       Patterns::Double(1.));
     prm.add_parameter(
+      "Named parts",
+      parts_text,
+      "Parts of sides with names of their own, as `name = side: low < x < high; ...` [m]; also `x < high`, "
+      "`x > low`, and y. For instance `inlet = bottom: 0.014 < x < 0.016`. The rest of the side keeps its "
+      "name. A velocity given on a part brings its exact flux, however large the cells; other conditions "
+      "hold at the nodes of the mesh that lie in the part. For grains a part is still a wall of its side, "
+      "unless it is named in `Open to grains`.");
+    prm.add_parameter(
       "Open to grains",
       open_to_grains,
       "Names of the boundaries that are no walls for the grains, separated by commas. A grain that leaves "
@@ -163,6 +171,8 @@ namespace alluvium::mesh
                                 wall_segments.end());
           }
 
+    name_parts();
+
     for (const auto &name : Utilities::split_string_list(open_to_grains))
       {
         std::string known;
@@ -171,11 +181,55 @@ namespace alluvium::mesh
         check_user(ids.count(name) == 1,
                    "Domain/Open to grains: there is no boundary named '" + name +
                      "'. The domain's boundaries are: " + known + ".");
+        const auto part =
+          std::find_if(named_parts.begin(), named_parts.end(), [&](const auto &p) { return p.name == name; });
+        if (part != named_parts.end())
+          {
+            open_part(*part);
+            continue;
+          }
         wall_segments.erase(std::remove_if(wall_segments.begin(),
                                            wall_segments.end(),
                                            [&](const auto &wall) { return wall.name == name; }),
                             wall_segments.end());
       }
+  }
+
+
+  template <int dim>
+  void Domain<dim>::name_parts()
+  {
+    std::vector<BoundarySide> sides;
+    for (const auto &wall : wall_segments)
+      sides.push_back({wall.a, wall.b, ids.at(wall.name)});
+    named_parts = parse_boundary_parts(parts_text, sides, ids);
+  }
+
+
+  template <int dim>
+  void Domain<dim>::open_part(const geometry::BoundaryPart &part)
+  {
+    std::vector<grains::WallSegment> walls;
+    for (const auto &wall : wall_segments)
+      {
+        if (wall.name != part.side_name)
+          {
+            walls.push_back(wall);
+            continue;
+          }
+        const auto at = [&](const double s) {
+          return std::array<double, 2>{
+            {wall.a[0] + s * (wall.b[0] - wall.a[0]), wall.a[1] + s * (wall.b[1] - wall.a[1])}};
+        };
+        for (const auto &piece : geometry::divide_face({part}, part.side, wall.a, wall.b))
+          if (piece.id != part.id)
+            {
+              walls.push_back(wall);
+              walls.back().a = at(piece.begin);
+              walls.back().b = at(piece.end);
+            }
+      }
+    wall_segments = walls;
   }
 
 

@@ -35,7 +35,7 @@ namespace alluvium::observers
             fastest         = std::max(fastest, std::sqrt(v2));
             energy += 0.5 * (g.mass[i] * v2 + grains::disc_inertia(g.mass[i], g.radius[i]) * g.omega[i] * g.omega[i]);
           }
-        height = mesh::find_bed_faces(g, s.left, s.right).mean_height();
+        height = mesh::find_bed_faces(g, s.left, s.right, geometry::Upright::of(s.gravity)).mean_height();
         statistics.set("bed_height_m", height);
         statistics.set("largest_grain_velocity_m_per_s", fastest);
         statistics.set("kinetic_energy_J_per_m", energy);

@@ -117,7 +117,9 @@ namespace alluvium::run
       return p / (rho * g) + (u[0] * u[0] + u[1] * u[1]) / (2. * g);
     };
     const auto average = [&](const double height) {
-      return fluid::line_average<Model::dim>(model.space, model.solver.solution(), height, psi);
+      const auto &upright = model.initial_bed.upright;
+      return fluid::line_average<Model::dim>(
+        model.space, model.solver.solution(), upright.sign * height, psi, upright.vertical);
     };
     return average(model.initial_bed.bottom()) - average(model.initial_bed.top());
   }
@@ -130,8 +132,8 @@ namespace alluvium::run
             model.n_steps,
             model.grains,
             model.initial_bed,
-            model.domain.lower()[0],
-            model.domain.upper()[0],
+            model.domain.lower()[1 - model.upright().vertical],
+            model.domain.upper()[1 - model.upright().vertical],
             model.gravity,
             model.grains_move ? &model.contact_report : nullptr,
             fluid_view.get(),
@@ -178,7 +180,7 @@ namespace alluvium::run
                              model.space,
                              model.solver.solution(),
                              model.coupling.void_fraction(),
-                             model.solver.properties.density * model.solver.gravity,
+                             model.solver.background_gradient(),
                              model.solver.datum(),
                              model.time);
   }

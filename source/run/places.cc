@@ -104,6 +104,9 @@ namespace alluvium::run
     unsigned int found[] = {id};
     MPI_Bcast(found, 1, MPI_UNSIGNED, rank, m.communicator);
     MPI_Bcast(&nearest, 1, MPI_DOUBLE, rank, m.communicator);
+    for (const auto &part : m.domain.parts())
+      if (part.side == found[0] && point[part.axis] > part.low && point[part.axis] < part.high)
+        found[0] = part.id;
     for (const auto &[name, number] : m.domain.boundary_ids())
       if (number == found[0] && nearest < std::numeric_limits<double>::max())
         {

@@ -10,6 +10,23 @@
 
 namespace alluvium::run
 {
+  namespace
+  {
+    /** The grains as they would lie with gravity along -y. */
+    grains::GrainArrays upright_grains(const Model &m)
+    {
+      grains::GrainArrays turned = m.grains;
+      for (std::size_t i = 0; i < turned.n(); ++i)
+        {
+          const auto at = m.upright().to({{m.grains.x[i], m.grains.y[i]}});
+          turned.x[i]   = at[0];
+          turned.y[i]   = at[1];
+        }
+      return turned;
+    }
+  } // namespace
+
+
   void report_scene(const Model &m, const std::string &observers, std::ostream &out)
   {
     const auto line = [&](const std::string &what, const std::string &text) {
@@ -26,7 +43,7 @@ namespace alluvium::run
            number(m.grains.fluid_radius[0] / m.grains.radius[0]) + " of the contact radius");
     if (!m.initial_bed.empty())
       {
-        const double packing = grains::inner_packing_fraction(m.grains);
+        const double packing = grains::inner_packing_fraction(upright_grains(m));
         line("bed",
              number(m.initial_bed.bottom()) + " m to " + number(m.initial_bed.top()) + " m" +
                (packing > 0. ? ", packing fraction " + number(packing) + " inside" : ""));
@@ -42,8 +59,9 @@ namespace alluvium::run
              std::to_string(m.coupling.report().n_pieces) + " pieces of grains, void fraction " +
                number(m.coupling.report().eps_min) + " to " + number(m.coupling.report().eps_max) + ", rho d^2/eta " +
                number(tau * m.solver.properties.density) + " s");
-        const coupling::HomogeneousBed bed{m.grains, m.solver.properties, coupling::inner_void_fraction(m.grains)};
-        const coupling::DragRange      range = m.coupling.drag_law().range();
+        const coupling::HomogeneousBed bed{
+          m.grains, m.solver.properties, coupling::inner_void_fraction(upright_grains(m))};
+        const coupling::DragRange range = m.coupling.drag_law().range();
         line("drag law",
              m.coupling.drag_law_name() + " (void fraction " + number(range.eps_min) + " to " + number(range.eps_max) +
                ", Reynolds number to " + number(range.re_max) + ")" +

@@ -8,6 +8,8 @@
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
+#include <map>
+#include <string>
 
 namespace alluvium::run
 {
@@ -27,6 +29,35 @@ namespace alluvium::run
             break;
           m.coupling.update_void_fraction(m.grains);
         }
+    }
+
+
+    /** What formulas of boundary conditions and driving may use. */
+    std::map<std::string, double> formula_constants(const Model &m)
+    {
+      const unsigned int up = m.upright().vertical;
+      return {{"rho", m.solver.properties.density},
+              {"eta", m.solver.properties.viscosity},
+              {"g", m.gravity_size()},
+              {"H", m.domain.upper()[up] - m.domain.lower()[up]},
+              {"L", m.initial_bed.empty() ? 0. : m.initial_bed.top() - m.initial_bed.bottom()},
+              {"d", mesh::mean_diameter(m.grains)},
+              {"pi", numbers::PI}};
+    }
+
+
+    /** Names and formulas, before grains and mesh take their time. */
+    void look_at_boundary_conditions(Model &m)
+    {
+      m.boundary_conditions.initialize(m.domain.boundary_ids(), formula_constants(m));
+      Tensor<1, dim> gradient;
+      Point<dim>     highest;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          gradient[d] = m.solver.properties.density * m.gravity[d];
+          highest[d]  = m.gravity[d] > 0. ? m.domain.lower()[d] : m.domain.upper()[d];
+        }
+      m.boundary_conditions.set_hydrostatic_pressure(gradient, highest);
     }
 
 
@@ -52,17 +83,12 @@ namespace alluvium::run
           m.adaptivity.make_initial_mesh(*mesh, context);
         }
 
-      m.boundary_conditions.initialize(
-        m.domain.boundary_ids(),
-        {{"rho", m.solver.properties.density},
-         {"eta", m.solver.properties.viscosity},
-         {"g", m.gravity_size()},
-         {"H", m.domain.upper()[1] - m.domain.lower()[1]},
-         {"L", m.initial_bed.empty() ? 0. : m.initial_bed.top() - m.initial_bed.bottom()},
-         {"d", mesh::mean_diameter(m.grains)},
-         {"pi", numbers::PI}});
+      const auto constants = formula_constants(m);
+      m.boundary_conditions.initialize(m.domain.boundary_ids(), constants);
       const auto periodicity = m.domain.periodicity();
       m.space.set_periodic_box({periodicity.lower, periodicity.length});
+      m.space.set_boundary_parts(m.domain.parts());
+      m.solver.initialize_driving(constants);
       attach_mesh(m, std::move(mesh));
       m.solver.choose_datum(m.boundary_conditions);
       if (from)
@@ -90,10 +116,11 @@ namespace alluvium::run
       if (m.has_fluid)
         for (std::size_t i = 0; i < m.grains.n(); ++i)
           {
-            const double displaced =
-              m.solver.properties.density * numbers::PI * m.grains.fluid_radius[i] * m.grains.fluid_radius[i];
-            m.loads.fx[i] -= displaced * m.gravity[0];
-            m.loads.fy[i] -= displaced * m.gravity[1];
+            const double volume    = numbers::PI * m.grains.fluid_radius[i] * m.grains.fluid_radius[i];
+            const double displaced = m.solver.properties.density * volume;
+            const auto   excess    = m.solver.unsupported_weight();
+            m.loads.fx[i] -= displaced * m.gravity[0] - volume * excess[0];
+            m.loads.fy[i] -= displaced * m.gravity[1] - volume * excess[1];
           }
       const auto          memory        = m.contacts.memory();
       grains::GrainArrays trial         = m.grains;
@@ -129,19 +156,25 @@ namespace alluvium::run
   {
     m.parse_parameters();
     m.domain.initialize(m.communicator, directory);
+    if (m.has_fluid)
+      look_at_boundary_conditions(m);
     const auto walls = m.grain_setup.walls(m.domain);
     m.contacts.set_walls(walls);
     m.contacts.set_periodicity(m.domain.periodicity());
     m.contacts.set_communicator(m.communicator);
     const std::array<double, 2> lower = {{m.domain.lower()[0], m.domain.lower()[1]}},
                                 upper = {{m.domain.upper()[0], m.domain.upper()[1]}};
+    const unsigned int across         = 1 - m.upright().vertical;
     if (from)
-      from->load_grains(m);
+      {
+        from->load_grains(m);
+        m.initial_bed.upright = m.upright();
+      }
     else
       {
         m.clock.dt    = m.time_step;
         m.grains      = m.grain_setup.make(m.communicator, m.domain, walls, m.gravity, directory);
-        m.initial_bed = mesh::find_bed_faces(m.grains, lower[0], upper[0]);
+        m.initial_bed = mesh::find_bed_faces(m.grains, lower[across], upper[across], m.upright());
         m.coarse_size = m.domain.coarse_cell_size() > 0. || !m.has_fluid
                           ? m.domain.coarse_cell_size()
                           : m.adaptivity.coarse_size(m.refinement_context());

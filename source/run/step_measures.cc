@@ -21,6 +21,7 @@ namespace alluvium::run
     struct FluidSums
     {
       double kinetic = 0., solid = 0., velocity_square = 0., courant = 0.;
+      double driven = 0.; // power of forces on the fluid [W/m]
       bool   finite = true;
     };
 
@@ -29,21 +30,24 @@ namespace alluvium::run
     {
       FluidSums          sums;
       const auto        &u = m.solver.solution().block(0), &p = m.solver.solution().block(1);
-      const auto        &eps = m.coupling.void_fraction();
-      const unsigned int n   = m.space.n_nodes_per_cell();
-      double             any = 0.; // not finite if one of the values is not
+      const auto        &eps   = m.coupling.void_fraction();
+      const unsigned int n     = m.space.n_nodes_per_cell();
+      const auto        &drive = m.solver.problem().drive;
+      double             any   = 0.; // not finite if one of the values is not
       for (const auto &cell : m.space.cells())
         {
-          double fastest = 0., kinetic = 0.;
+          double fastest = 0., kinetic = 0., driven = 0.;
           for (unsigned int v = 0; v < n; ++v)
             {
               const double ux = u.local_element(cell.velocity[v][0]), uy = u.local_element(cell.velocity[v][1]),
                            e = eps.local_element(cell.node[v]), square = ux * ux + uy * uy;
               fastest = std::max(fastest, square);
               kinetic += e * square;
+              driven += e * (ux * drive[0] + uy * drive[1]);
               any += 0. * (square + e + p.local_element(cell.pressure[v]));
             }
           sums.kinetic += cell.measure / n * kinetic;
+          sums.driven += cell.measure / n * driven;
           sums.velocity_square = std::max(sums.velocity_square, fastest);
           sums.courant         = std::max(sums.courant, fastest / (cell.size * cell.size));
         }
@@ -75,10 +79,11 @@ namespace alluvium::run
   {
     using Kind = fluid::BoundaryConditions<dim>::Kind;
     faces.clear();
-    faces_known                 = true;
-    const auto        &periodic = m.space.periodic_box().length;
-    const unsigned int n        = m.space.n_nodes_per_cell();
-    unsigned int       index    = 0;
+    faces_known                   = true;
+    const auto        &periodic   = m.space.periodic_box().length;
+    const auto        &conditions = m.boundary_conditions.all();
+    const unsigned int n          = m.space.n_nodes_per_cell();
+    unsigned int       index      = 0;
     for (const auto &cell : fluid::ordered_cells(m.space.dof_handler()))
       {
         if (!cell->is_locally_owned())
@@ -93,15 +98,20 @@ namespace alluvium::run
             const auto id = cell->face(f)->boundary_id();
             if (periodic[id / 2 % dim] > 0.)
               continue;
-            const Kind kind = m.boundary_conditions.all().at(id).kind;
-            if (kind != Kind::pressure && kind != Kind::velocity)
+            const Point<dim> a = cell->face(f)->vertex(0), b = cell->face(f)->vertex(1);
+            bool             pressure = false, velocity = false;
+            for (const auto &part : m.space.divide_face(id, a, b))
+              {
+                pressure = pressure || conditions.at(part.id).kind == Kind::pressure;
+                velocity = velocity || conditions.at(part.id).kind == Kind::velocity;
+              }
+            if (!pressure && !velocity)
               continue;
-            Face face{c, {}, {}, kind == Kind::pressure};
+            Face face{c, {}, {}, pressure};
             for (unsigned int e = 0; e < 2; ++e)
               for (unsigned int v = 0; v < n; ++v)
                 if (cell->face(f)->vertex_index(e) == cell->vertex_index(v))
                   face.node[e] = v;
-            const Point<dim> a = cell->face(f)->vertex(0), b = cell->face(f)->vertex(1);
             face.normal        = {{b[1] - a[1], a[0] - b[0]}};
             const auto outward = cell->face(f)->center() - cell->center();
             if (face.normal[0] * outward[0] + face.normal[1] * outward[1] < 0.)
@@ -159,6 +169,19 @@ namespace alluvium::run
               power += weight * eta * square / cell.size * std::hypot(face.normal[0], face.normal[1]);
           }
       }
+    // what is given is a flux, also where walls hold the nodes' velocity
+    const auto *given = m.solver.problem().given_fluxes;
+    for (std::size_t i = 0; given && i < given->size(); ++i)
+      {
+        const auto &face = m.space.inflow_faces()[i];
+        if (!face.owned)
+          continue;
+        const double width = face.length() * (face.to - face.from), in = -(*given)[i][0] - (*given)[i][1];
+        power += std::max(0., in) * 0.5 * rho * in * in / (width * width);
+        for (unsigned int e = 0; e < 2; ++e)
+          power +=
+            std::abs((*given)[i][e] * (p.local_element(m.space.cells()[face.cell].pressure[face.vertex[e]]) - lowest));
+      }
     return power;
   }
 
@@ -169,6 +192,7 @@ namespace alluvium::run
     const auto  &g           = m.grains;
     const double rho         = m.has_fluid ? m.solver.properties.density : 0.;
     const auto   periodicity = m.domain.periodicity();
+    const auto   excess      = m.has_fluid ? m.solver.unsupported_weight() : Tensor<1, dim>();
     double       work = 0., prescribed = 0.;
     for (std::size_t i = 0; i < g.n(); ++i)
       {
@@ -182,8 +206,8 @@ namespace alluvium::run
           }
         double dx = g.x[i] - x[i], dy = g.y[i] - y[i];
         periodicity.shorten(dx, dy);
-        const double reduced = g.mass[i] - rho * numbers::PI * g.fluid_radius[i] * g.fluid_radius[i];
-        work += reduced * (m.gravity[0] * dx + m.gravity[1] * dy);
+        const double volume = numbers::PI * g.fluid_radius[i] * g.fluid_radius[i], reduced = g.mass[i] - rho * volume;
+        work += reduced * (m.gravity[0] * dx + m.gravity[1] * dy) + volume * (excess[0] * dx + excess[1] * dy);
       }
     work += m.time_step * prescribed;
     for (const auto &wall : m.contacts.walls())
@@ -224,7 +248,7 @@ namespace alluvium::run
         if (!faces_known)
           find_faces(m);
         const FluidSums mine    = sum_fluid(m);
-        double          sums[3] = {mine.kinetic, mine.solid, boundary_work(m)};
+        double          sums[3] = {mine.kinetic, mine.solid, boundary_work(m) + mine.driven};
         double          largest[3]{mine.velocity_square, mine.courant, mine.finite ? 0. : 1.};
         MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, m.communicator);
         MPI_Allreduce(MPI_IN_PLACE, largest, 3, MPI_DOUBLE, MPI_MAX, m.communicator);

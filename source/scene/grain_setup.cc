@@ -198,6 +198,48 @@ namespace alluvium::scene
   }
 
 
+  namespace
+  {
+    /** What falls is made in a scene that stands upright, and turned back. */
+    std::vector<grains::Seed> make_deposit(const grains::Deposit &deposit, grains::DepositContext context)
+    {
+      const auto upright = geometry::Upright::of(context.gravity);
+      if (!deposit.falls() || upright.is_default())
+        return deposit.make(context);
+      context.upright = upright;
+      upright.turn(context.lower, context.upper);
+      for (auto &wall : context.walls)
+        {
+          for (auto *x : {&wall.a, &wall.b, &wall.velocity, &wall.centre})
+            *x = upright.to(*x);
+          // turning by a mirror turns spins round
+          if (upright.vertical == 0 ? upright.sign > 0. : upright.sign < 0.)
+            wall.spin = -wall.spin;
+        }
+      context.gravity         = upright.to(context.gravity);
+      std::array<double, 2> a = context.periodicity.lower, b = a;
+      for (unsigned int d = 0; d < 2; ++d)
+        b[d] += context.periodicity.length[d];
+      upright.turn(a, b);
+      for (unsigned int d = 0; d < 2; ++d)
+        {
+          context.periodicity.lower[d]  = a[d];
+          context.periodicity.length[d] = b[d] - a[d];
+        }
+      auto seeds = deposit.make(context);
+      for (auto &seed : seeds)
+        {
+          const auto x = upright.from({{seed.x, seed.y}}), v = upright.from({{seed.vx, seed.vy}});
+          seed.x  = x[0];
+          seed.y  = x[1];
+          seed.vx = v[0];
+          seed.vy = v[1];
+        }
+      return seeds;
+    }
+  } // namespace
+
+
   grains::GrainArrays GrainSetup::make(MPI_Comm                                communicator,
                                        const mesh::Domain<2>                  &domain,
                                        const std::vector<grains::WallSegment> &walls,
@@ -210,15 +252,16 @@ namespace alluvium::scene
       broadcast_numbers(communicator, on_first_rank(communicator, [&] {
                           std::vector<std::string>        warnings;
                           const std::vector<grains::Seed> seeds =
-                            deposit.get().make({{{domain.lower()[0], domain.lower()[1]}},
-                                                {{domain.upper()[0], domain.upper()[1]}},
-                                                walls,
-                                                density,
-                                                gravity,
-                                                directory,
-                                                domain.periodicity(),
-                                                may_write,
-                                                &warnings});
+                            make_deposit(deposit.get(),
+                                         {{{domain.lower()[0], domain.lower()[1]}},
+                                          {{domain.upper()[0], domain.upper()[1]}},
+                                          walls,
+                                          density,
+                                          gravity,
+                                          directory,
+                                          domain.periodicity(),
+                                          may_write,
+                                          &warnings});
                           for (const std::string &warning : warnings)
                             std::cerr << "alluvium: warning: " << warning << std::endl;
                           std::vector<double> flat;
@@ -254,7 +297,7 @@ namespace alluvium::scene
                            walls,
                            2. * overlap_tolerance * *std::min_element(grains.radius.begin(), grains.radius.end()),
                            domain.periodicity());
-    last_factor = find_radius_factor(grains, domain);
+    last_factor = find_radius_factor(grains, domain, geometry::Upright::of(gravity));
     for (std::size_t i = 0; i < n; ++i)
       {
         grains.fluid_radius[i] = last_factor * grains.radius[i];
@@ -265,16 +308,21 @@ namespace alluvium::scene
   }
 
 
-  double GrainSetup::find_radius_factor(const grains::GrainArrays &grains, const mesh::Domain<2> &domain) const
+  double GrainSetup::find_radius_factor(const grains::GrainArrays &grains,
+                                        const mesh::Domain<2>     &domain,
+                                        const geometry::Upright   &upright) const
   {
+    const unsigned int across = 1 - upright.vertical;
+
     if (packing == 0.)
       return factor;
-    const double height = mesh::find_bed_faces(grains, domain.lower()[0], domain.upper()[0]).mean_height();
-    double       area   = 0.;
+    const double height =
+      mesh::find_bed_faces(grains, domain.lower()[across], domain.upper()[across], upright).mean_height();
+    double area = 0.;
     for (const double r : grains.radius)
       area += dealii::numbers::PI * r * r;
     check_user(height > 0., "Grains/Fluid packing fraction: the grains form no bed whose packing could be chosen.");
-    const double result = std::sqrt(packing * height * (domain.upper()[0] - domain.lower()[0]) / area);
+    const double result = std::sqrt(packing * height * (domain.upper()[across] - domain.lower()[across]) / area);
     check_user(result <= 1.,
                "Grains/Fluid packing fraction: the bed's own is only " + number(packing / (result * result)) +
                  ", so that it cannot be " + number(packing) + " for the fluid.");

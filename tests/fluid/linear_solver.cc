@@ -101,7 +101,9 @@ namespace
       , constraints(jet.space.constraints())
     {
       BlockVector iterate = jet.space.make_field(), old = jet.space.make_field(), known = jet.space.make_field();
-      jet.space.apply_boundary_values(jet.bc, Tensor<1, dim>(), 0., {}, iterate);
+      given.update(jet.space, jet.bc, jet.void_fraction);
+      jet.problem.given_fluxes = &given.face_fluxes();
+      jet.space.apply_boundary_values(jet.bc, Tensor<1, dim>(), 0., {}, given.node_values(), iterate);
       for (BlockVector *field : {&iterate, &old, &known})
         field->update_ghost_values();
       jet.problem.old = &old;
@@ -122,6 +124,7 @@ namespace
         matrix, residual, {{residual.block(0).l2_norm(), residual.block(1).l2_norm()}}, constraints, 1., x);
     }
 
+    GivenVelocity<dim>                  given;
     VansAssembler<dim>                  assembler;
     TrilinosWrappers::BlockSparseMatrix matrix;
     LinearSolver                        solver;

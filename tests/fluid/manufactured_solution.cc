@@ -123,6 +123,7 @@ namespace
     for (const auto id : tria.get_boundary_ids())
       bc.set(id, {Kind::velocity, "side", std::make_shared<Velocity>()});
     bc.pin(true);
+    bc.give_interstitial_velocity();
 
     FluidSpace<dim> space(tria);
     space.reinit(bc);

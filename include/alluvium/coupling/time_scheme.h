@@ -47,6 +47,7 @@ namespace alluvium::coupling
     const OverlapMap                &map;
     double                           dt;                         // [s]
     std::array<double, 2>            gravity       = {{0., 0.}}; // [m/s^2]
+    std::array<double, 2>            unsupported   = {{0., 0.}}; // VansSolver::unsupported_weight() [N/m^3]
     double                           fluid_density = 0.;         // [kg/m^3]
     std::vector<double>              gamma;                      // drag per piece [N s/m^4]
     std::vector<PieceField>          old, latest, before_latest; // t^n on the new pieces; after the latest two sweeps

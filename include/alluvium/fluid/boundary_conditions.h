@@ -35,6 +35,9 @@ namespace alluvium::fluid
       Kind                                   kind;
       std::string                            name;
       std::shared_ptr<dealii::Function<dim>> value; // pressure: 1 component [Pa]; velocity: dim components [m/s]
+
+      std::string text            = "";    // of the value, as the user wrote it
+      bool        add_hydrostatic = false; // is the pressure to be added to that of the fluid at rest?
     };
 
     void add_parameters(dealii::ParameterHandler &prm);
@@ -50,21 +53,49 @@ namespace alluvium::fluid
     /** Use @p condition on boundary @p id; for programs that have no parameter file. */
     void set(const dealii::types::boundary_id id, const Condition &condition) { conditions[id] = condition; }
 
-    void set_time(const double time);
+    void   set_time(const double time);
+    double current_time() const { return time; }
+
+    /**
+     * The value of @p condition, which has one, at @p point and the time that is set. Throws UserError if it is not
+     * finite.
+     */
+    double value(const Condition &condition, const dealii::Point<dim> &point, const unsigned int component = 0) const;
+
+    /** Do given velocities depend on time? */
+    bool velocity_depends_on_time() const;
+
+    /** Is a given velocity that of the fluid between the grains? Else it is that of the mixture, a flux by area. */
+    bool velocity_is_interstitial() const { return given_velocity == "interstitial"; }
+    void give_interstitial_velocity() { given_velocity = "interstitial"; }
+
+    /** Is the pressure given on a boundary? */
+    bool has_pressure() const;
+
+    /**
+     * Of the fluid at rest: @p gradient is rho g [Pa/m], and the pressure vanishes at @p origin. It is added to the
+     * pressures that want it.
+     */
+    void set_hydrostatic_pressure(const dealii::Tensor<1, dim> &gradient, const dealii::Point<dim> &origin);
 
     const std::map<dealii::types::boundary_id, Condition> &all() const { return conditions; }
 
     /** Is the pressure fixed at one node instead of on a boundary (closed box)? */
-    bool pins_pressure() const { return pin_pressure; }
+    bool pins_pressure() const { return pin_pressure && !has_pressure(); }
     void pin(const bool yes) { pin_pressure = yes; }
 
     /** Are given pressures total ones, p + rho u^2/2, where the flow enters? Static ones otherwise. */
     bool total_pressure_on_inflow() const { return pressure_on_inflow == "total"; }
 
   private:
-    std::string no_slip, slip, symmetric, pressure, velocity;
+    std::string no_slip, slip, symmetric, pressure, velocity, hydrostatic;
+    std::string given_velocity     = "superficial";
     std::string pressure_on_inflow = "static";
     bool        pin_pressure       = false;
+    double      time               = 0.; // [s]
+
+    dealii::Tensor<1, dim> hydrostatic_gradient; // [Pa/m]
+    dealii::Point<dim>     hydrostatic_origin;
 
     std::map<dealii::types::boundary_id, Condition> conditions;
   };

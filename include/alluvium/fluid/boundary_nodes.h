@@ -24,13 +24,34 @@ namespace alluvium::fluid
     dealii::Point<dim>              point;
   };
 
-  /** A face with prescribed velocity, through which the continuity equation needs the flux. */
+  /** Part of a face on which the velocity is given, through which the continuity equation needs the flux. */
   template <int dim>
   struct InflowFace
   {
-    unsigned int                                    cell;
+    bool                                           owned; // by this rank; other faces it only knows
+    unsigned int                                   cell;  // if owned
+    dealii::types::boundary_id                     boundary;
+    std::array<unsigned int, 2>                    vertex; // of the cell, at the face's ends
+    std::array<dealii::types::global_dof_index, 2> node;   // the same as nodal dofs
+    std::array<dealii::Point<dim>, 2>              end;
+    double                                         from, to; // the part: 0 the first end, 1 the second
+    dealii::Tensor<1, dim>                         normal;   // outward, of length 1
+
     std::vector<std::array<double, max_nodes<dim>>> phi; // [quadrature point][node of the cell]
     std::vector<dealii::Tensor<1, dim>>             normal_jxw;
+
+    double length() const { return end[0].distance(end[1]); } // of the whole face [m]
+  };
+
+  /** A node at which velocities are given. */
+  template <int dim>
+  struct InflowNode
+  {
+    dealii::types::boundary_id boundary;
+    dealii::Point<dim>         point;
+    bool                       whole;  // do faces of this boundary alone meet here, each a whole one?
+    double                     length; // of the node's share of the boundary in line with these faces [m]
+    dealii::Tensor<1, dim>     normal; // of these faces
   };
 
   /** A face through which the fluid may go in and out: the pressure is given there. */
@@ -49,7 +70,8 @@ namespace alluvium::fluid
 
   /**
    * The nodes of the mesh that lie on boundaries, which conditions meet at each of them, and what these ask of its
-   * dofs: where a wall meets an inflow, the wall wins; slip walls that meet at a corner hold both components.
+   * dofs: where a wall meets an inflow at a corner, the wall wins; slip walls that meet at a corner hold both
+   * components. In line with a wall an inflow reaches as far as the shape functions of the nodes of its faces.
    */
   template <int dim>
   class BoundaryNodes
@@ -71,18 +93,39 @@ namespace alluvium::fluid
       return on_boundary.at(id);
     }
 
-    std::vector<InflowFace<dim>> inflow; // of owned cells
+    /** Where boundaries with a given pressure meet, the share of @p node that is boundary @p id's; else 1. */
+    double share(const dealii::types::global_dof_index node, const dealii::types::boundary_id id) const;
+
+    /** Where velocities are given, by nodal dof. */
+    std::map<dealii::types::global_dof_index, InflowNode<dim>> inflow_nodes() const;
+
+    std::vector<InflowFace<dim>> inflow; // of all cells that this rank knows
     std::vector<OpenFace<dim>>   open;   // of owned cells
 
   private:
     using Kind = typename BoundaryConditions<dim>::Kind;
+
+    /** Half of a face that ends at a node, and how much of the face is a boundary's. */
+    struct HalfFace
+    {
+      dealii::types::boundary_id boundary;
+      Kind                       kind;
+      dealii::Tensor<1, dim>     normal;
+      double                     length;         // [m]
+      bool                       touches, whole; // does the part end at the node, is it all of the face?
+    };
 
     struct Node
     {
       std::array<dealii::types::global_dof_index, dim + 1> dof;
       dealii::Point<dim>                                   point;
       std::map<Kind, dealii::types::boundary_id>           kinds;
-      std::vector<dealii::Tensor<1, dim>>                  slip_normals; // of the slip walls that meet here
+      std::vector<HalfFace>                                faces;
+
+      std::vector<dealii::Tensor<1, dim>> normals_of(const Kind kind) const;
+
+      /** A face whose velocity is given here, if one is. */
+      const HalfFace *inflow() const;
     };
 
     std::map<dealii::types::global_dof_index, Node>                                 nodes; // by nodal dof

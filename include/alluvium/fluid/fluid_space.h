@@ -3,6 +3,7 @@
 #include <alluvium/fluid/boundary_conditions.h>
 #include <alluvium/fluid/boundary_nodes.h>
 #include <alluvium/fluid/interphase.h>
+#include <alluvium/geometry/boundary_part.h>
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_system.h>
@@ -66,6 +67,13 @@ namespace alluvium::fluid
     void               set_periodic_box(const PeriodicBox &periodic_box) { box = periodic_box; }
     const PeriodicBox &periodic_box() const { return box; }
 
+    /** Let parts of sides be boundaries of their own from the next reinit() on. */
+    void set_boundary_parts(const std::vector<geometry::BoundaryPart> &boundary_parts) { parts = boundary_parts; }
+
+    /** What boundaries the face from @p a to @p b of the side @p id consists of. */
+    std::vector<geometry::FacePart>
+    divide_face(const dealii::types::boundary_id id, const dealii::Point<dim> &a, const dealii::Point<dim> &b) const;
+
     /** Number the dofs anew; call after the mesh or the kinds of boundary conditions changed. */
     void reinit(const BoundaryConditions<dim> &boundary_conditions);
 
@@ -78,15 +86,19 @@ namespace alluvium::fluid
     BlockVector make_field() const;       // ghosted, zero
     Vector      make_nodal_field() const; // scalar, ghosted, zero
 
+    /** Velocities of the fluid by nodal dof [m/s]. */
+    using GivenVelocities = std::map<dealii::types::global_dof_index, dealii::Tensor<1, dim>>;
+
     /**
      * Set @p field's boundary values at the time of @p boundary_conditions, then its hanging nodes. The reduced
      * pressure is p - rho g.x - @p datum, with @p hydrostatic_gradient = rho g, less what @p deficits say of its
-     * boundary (none if that is not among them) [Pa].
+     * boundary (none if that is not among them) [Pa]. @p velocities are those of the nodes at which they are given.
      */
     void apply_boundary_values(const BoundaryConditions<dim>                      &boundary_conditions,
                                const dealii::Tensor<1, dim>                       &hydrostatic_gradient,
                                const double                                        datum,
                                const std::map<dealii::types::boundary_id, double> &deficits,
+                               const GivenVelocities                              &velocities,
                                BlockVector                                        &field) const;
 
     /** Has @p field these boundary values already, to the last bit? Collective. */
@@ -94,6 +106,7 @@ namespace alluvium::fluid
                              const dealii::Tensor<1, dim>                       &hydrostatic_gradient,
                              const double                                        datum,
                              const std::map<dealii::types::boundary_id, double> &deficits,
+                             const GivenVelocities                              &velocities,
                              const BlockVector                                  &field) const;
 
     /**
@@ -127,7 +140,8 @@ namespace alluvium::fluid
 
     /**
      * A test function that is 1 on the nodes of one boundary and 0 on all others, on the cells where it does not
-     * vanish. The residual of the continuity equation against it is the flux through that boundary.
+     * vanish; at nodes where boundaries with a given pressure meet, it is what they share. The residual of the
+     * continuity equation against it is the flux through that boundary, with what is given on others around.
      */
     struct BoundaryWeight
     {
@@ -139,8 +153,10 @@ namespace alluvium::fluid
       return boundary_weights.at(id);
     }
 
-    const std::vector<InflowFace<dim>> &inflow_faces() const { return inflow; }
-    const std::vector<OpenFace<dim>>   &open_faces() const { return open; }
+    /** Of all cells that this rank knows. */
+    const std::vector<InflowFace<dim>>                               &inflow_faces() const { return inflow; }
+    const std::map<dealii::types::global_dof_index, InflowNode<dim>> &inflow_nodes() const { return inflow_at; }
+    const std::vector<OpenFace<dim>>                                 &open_faces() const { return open; }
     /** Ids of the boundaries with a given pressure, in order, the same on all ranks. */
     const std::vector<dealii::types::boundary_id> &open_boundaries() const { return open_ids; }
 
@@ -157,6 +173,7 @@ namespace alluvium::fluid
                                  const dealii::Tensor<1, dim>                       &hydrostatic_gradient,
                                  const double                                        datum,
                                  const std::map<dealii::types::boundary_id, double> &deficits,
+                                 const GivenVelocities                              &velocities,
                                  const Action                                       &action) const;
     /** Renumber both handlers: nodes near each other, velocities as their nodes, all pressures after them. */
     void number_by_nodes();
@@ -166,6 +183,7 @@ namespace alluvium::fluid
 
     const dealii::Triangulation<dim>           *tria = nullptr;
     PeriodicBox                                 box;
+    std::vector<geometry::BoundaryPart>         parts;
     std::unique_ptr<dealii::Mapping<dim>>       map;
     std::unique_ptr<dealii::FiniteElement<dim>> scalar_fe, system_fe;
     dealii::DoFHandler<dim>                     dofs, nodal_dofs;
@@ -181,6 +199,7 @@ namespace alluvium::fluid
     std::vector<PrescribedDof<dim>>                                   boundary_dofs;
     std::map<dealii::types::boundary_id, std::vector<BoundaryWeight>> boundary_weights;
     std::vector<InflowFace<dim>>                                      inflow;
+    std::map<dealii::types::global_dof_index, InflowNode<dim>>        inflow_at;
     std::vector<OpenFace<dim>>                                        open;
     std::vector<dealii::types::boundary_id>                           open_ids;
 

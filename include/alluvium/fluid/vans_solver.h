@@ -1,5 +1,7 @@
 #pragma once
 
+#include <alluvium/fluid/driving.h>
+#include <alluvium/fluid/given_velocity.h>
 #include <alluvium/fluid/linear_solver.h>
 #include <alluvium/fluid/vans_assembler.h>
 #include <alluvium/utilities/timers.h>
@@ -28,8 +30,30 @@ namespace alluvium::fluid
      */
     void begin_step(const BoundaryConditions<dim> &boundary_conditions, const VansProblem<dim> &problem);
 
-    /** Has the solution already the boundary values of the new time, to the last bit? Collective. */
-    bool has_boundary_values(const BoundaryConditions<dim> &boundary_conditions) const;
+    /** Has the solution already the boundary values and the driving of the new time, to the last bit? Collective. */
+    bool has_boundary_values(const BoundaryConditions<dim> &boundary_conditions, const Vector &void_fraction);
+
+    /**
+     * Flux out of the domain that each boundary with a given velocity has at the time of @p boundary_conditions
+     * [m^2/s]. Throws UserError if one of their values, velocity or pressure, is not finite. Collective.
+     */
+    std::map<dealii::types::boundary_id, double> given_fluxes(const BoundaryConditions<dim> &boundary_conditions,
+                                                              const Vector                  &void_fraction);
+
+    /** Parse what drives the fluid, after the parameters; see Driving::initialize(). */
+    void initialize_driving(const std::map<std::string, double> &constants)
+    {
+      driving.initialize(constants, space->periodic_box().length);
+    }
+
+    /** Gradient of the pressure that the solution leaves out, datum() aside [Pa/m]; at the time of the latest step. */
+    dealii::Tensor<1, dim> background_gradient() const
+    {
+      return driving.background_gradient(properties.density * gravity, space->periodic_box().length);
+    }
+
+    /** Weight of displaced fluid that no pressure gradient carries: rho g - background_gradient() [N/m^3]. */
+    dealii::Tensor<1, dim> unsupported_weight() const { return properties.density * gravity - background_gradient(); }
 
     /** Assemble and solve with the pieces' present known terms. */
     void solve();
@@ -45,8 +69,15 @@ namespace alluvium::fluid
     /** Start of the next step: u^n <- u^{n+1}. Until then flux() and interphase_force() belong to the last one. */
     void accept();
 
-    /** Outflow through a boundary with the latest solution and terms [m^2/s]. */
-    double flux(const dealii::types::boundary_id id) const { return assembler.flux(current, iterate, id); }
+    /**
+     * Outflow of the mixture through a boundary with the latest solution and terms [m^2/s]. Where the velocity is given
+     * that is what the continuity equation was given. Collective.
+     */
+    double flux(const dealii::types::boundary_id id) const
+    {
+      const auto it = boundary_fluxes.find(id);
+      return it == boundary_fluxes.end() ? assembler.flux(current, iterate, id) : it->second;
+    }
 
     /** What the fluid received from the pieces in the latest solve [N/m]. */
     std::array<double, dim> interphase_force() const { return assembler.interphase_force(current, iterate); }
@@ -93,14 +124,26 @@ namespace alluvium::fluid
     std::map<dealii::types::boundary_id, double> pressure_deficits(const BoundaryConditions<dim> &boundary_conditions,
                                                                    const BlockVector             &start) const;
 
+    /** Find given velocities and driving at the time of @p boundary_conditions. */
+    void update_given(const BoundaryConditions<dim> &boundary_conditions, const Vector &void_fraction);
+
+    /** Force on the fluid that is not on grains, per volume of fluid [N/m^3]. */
+    std::array<double, dim> drive() const;
+
     void                  solve_with_new_known_terms();
     void                  solve_increment();
     std::array<double, 2> term_scale() const;
 
     const FluidSpace<dim> *space;
     VansProblem<dim>       current;
-    BlockVector            iterate, previous, residual, known, increment, product;
-    LinearSolverReport     report;
-    double                 dt_of_preconditioner = 0., pressure_datum = 0.;
+    GivenVelocity<dim>     given;
+    Driving<dim>           driving;
+    dealii::Tensor<1, dim> latest_gradient;   // the background's in the latest step
+    bool                   has_begun = false; // a step
+
+    std::map<dealii::types::boundary_id, double> boundary_fluxes; // of the latest step
+    BlockVector                                  iterate, previous, residual, known, increment, product;
+    LinearSolverReport                           report;
+    double                                       dt_of_preconditioner = 0., pressure_datum = 0.;
   };
 } // namespace alluvium::fluid

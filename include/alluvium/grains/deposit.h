@@ -1,5 +1,6 @@
 #pragma once
 
+#include <alluvium/geometry/upright.h>
 #include <alluvium/grains/periodicity.h>
 #include <alluvium/grains/wall.h>
 
@@ -32,6 +33,7 @@ namespace alluvium::grains
     Periodicity               periodicity = {};      // of the domain
     bool                      may_write   = true;    // files: caches. Not where a scene is only looked at
     std::vector<std::string> *warnings    = nullptr; // where to put what the user should know, if anywhere
+    geometry::Upright         upright     = {};      // how all this has been turned; parameters have not
   };
 
   /**
@@ -44,5 +46,9 @@ namespace alluvium::grains
     virtual ~Deposit() = default;
     virtual void              add_parameters(dealii::ParameterHandler &) {}
     virtual std::vector<Seed> make(const DepositContext &context) const = 0;
+
+    /** Does it put grains down on a floor? Then it is given a scene turned upright, and what it makes is turned back.
+     */
+    virtual bool falls() const { return false; }
   };
 } // namespace alluvium::grains

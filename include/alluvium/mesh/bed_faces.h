@@ -1,5 +1,6 @@
 #pragma once
 
+#include <alluvium/geometry/upright.h>
 #include <alluvium/grains/grain_arrays.h>
 
 #include <array>
@@ -11,7 +12,7 @@ namespace alluvium::mesh
    * Where the grains' bed begins and ends, looked for in columns because a bed need not be level. The top of a column
    * is the height y + r above which there is a quarter of a layer of grains (area 0.25 d times the column's width), so
    * a few grains that fly above the bed do not move it; the bottom likewise with y - r. A column with fewer grains than
-   * that has no bed.
+   * that has no bed. Columns stand as `upright` says: left and right are its `across`, bottom and top its heights.
    */
   struct BedFaces
   {
@@ -21,6 +22,7 @@ namespace alluvium::mesh
       double bottom, top; // [m]
     };
     std::vector<Column> columns; // those with a bed, from left to right
+    geometry::Upright   upright;
 
     bool empty() const { return columns.empty(); }
 
@@ -40,6 +42,10 @@ namespace alluvium::mesh
   /** Mean contact diameter of @p grains [m], 0 without grains. */
   double mean_diameter(const grains::GrainArrays &grains);
 
-  /** Find the faces in columns about 8 mean diameters wide between x = @p left and @p right [m]. */
-  BedFaces find_bed_faces(const grains::GrainArrays &grains, double left, double right);
+  /**
+   * Find the faces in columns about 8 mean diameters wide between @p left and @p right [m], coordinates across @p
+   * upright (x where gravity is along -y).
+   */
+  BedFaces
+  find_bed_faces(const grains::GrainArrays &grains, double left, double right, const geometry::Upright &upright = {});
 } // namespace alluvium::mesh

@@ -2,6 +2,7 @@
 
 #include <alluvium/grains/periodicity.h>
 #include <alluvium/grains/wall.h>
+#include <alluvium/mesh/boundary_parts.h>
 #include <alluvium/mesh/cell_weights.h>
 
 #include <deal.II/base/point.h>
@@ -48,6 +49,9 @@ namespace alluvium::mesh
 
     const std::map<std::string, dealii::types::boundary_id> &boundary_ids() const { return ids; }
 
+    /** Parts of sides with names of their own, which boundary_ids() has, too. Cells know their side's number only. */
+    const std::vector<geometry::BoundaryPart> &parts() const { return named_parts; }
+
     /** Corners of the bounding box [m]. */
     const dealii::Point<dim> &lower() const { return lower_corner; }
     const dealii::Point<dim> &upper() const { return upper_corner; }
@@ -89,10 +93,12 @@ namespace alluvium::mesh
 
   private:
     void read_mesh_file(const std::string &directory);
+    void name_parts();
+    void open_part(const geometry::BoundaryPart &part);
     void make_rectangle(dealii::Triangulation<dim, dim> &triangulation, double cell_size) const;
 
     dealii::Point<dim> lower_corner, upper_corner;
-    std::string        mesh_file, open_to_grains, periodic_directions;
+    std::string        mesh_file, open_to_grains, periodic_directions, parts_text;
     double             coarse_size = 0., max_diameters = 2e4;
 
     MPI_Comm                                          communicator;
@@ -100,5 +106,6 @@ namespace alluvium::mesh
     bool                                              triangles = false;
     std::map<std::string, dealii::types::boundary_id> ids;
     std::vector<grains::WallSegment>                  wall_segments;
+    std::vector<geometry::BoundaryPart>               named_parts;
   };
 } // namespace alluvium::mesh

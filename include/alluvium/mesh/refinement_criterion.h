@@ -35,11 +35,14 @@ namespace alluvium::mesh
   };
 
   /** The context that @p grains make in @p domain; without the fluid. @p grains must outlive it. */
-  inline RefinementContext make_refinement_context(const grains::GrainArrays &grains, const Box &domain)
+  inline RefinementContext
+  make_refinement_context(const grains::GrainArrays &grains, const Box &domain, const geometry::Upright &upright = {})
   {
+    const unsigned int across = 1 - upright.vertical;
+
     RefinementContext context;
     context.grain_diameter = mean_diameter(grains);
-    context.bed            = find_bed_faces(grains, domain.lower[0], domain.upper[0]);
+    context.bed            = find_bed_faces(grains, domain.lower[across], domain.upper[across], upright);
     context.domain         = domain;
     context.grains         = &grains;
     return context;

@@ -32,7 +32,7 @@ namespace alluvium::observers
     unsigned int                  step;
     const grains::GrainArrays    &grains;
     const mesh::BedFaces         &initial_bed;
-    double                        left, right; // of the domain [m]
+    double                        left, right; // of the domain, across gravity's axis [m]
     std::array<double, 2>         gravity;     // [m/s^2]
     const grains::ContactReport  *contacts;    // null where grains do not move, and at t = 0
     const FluidView              *fluid;       // null in dry scenes

@@ -52,6 +52,9 @@ namespace alluvium::run
     /** Magnitude of the acceleration of gravity [m/s^2]. */
     double gravity_size() const;
 
+    /** How heights are measured: along the axis nearest to gravity, y without it. */
+    geometry::Upright upright() const { return geometry::Upright::of(gravity); }
+
     const MPI_Comm communicator;
     const bool     speaks; // this rank writes what the user reads
 

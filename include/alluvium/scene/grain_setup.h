@@ -41,7 +41,9 @@ namespace alluvium::scene
 
   private:
     void   move_walls(std::vector<grains::WallSegment> &walls, const grains::Periodicity &periodicity) const;
-    double find_radius_factor(const grains::GrainArrays &grains, const mesh::Domain<2> &domain) const;
+    double find_radius_factor(const grains::GrainArrays &grains,
+                              const mesh::Domain<2>     &domain,
+                              const geometry::Upright   &upright) const;
 
     PluginChoice<grains::Deposit> deposit;
     double                        density = 2650., factor = 1., packing = 0., overlap_tolerance = 0.01;

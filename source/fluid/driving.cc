@@ -1,0 +1,88 @@
+#include <alluvium/fluid/driving.h>
+#include <alluvium/utilities/expression.h>
+#include <alluvium/utilities/user_error.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/utilities.h>
+
+#include <cmath>
+
+namespace alluvium::fluid
+{
+  using namespace dealii;
+
+  template <int dim>
+  void Driving<dim>::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Body force",
+                      force_text,
+                      "Force on the fluid, not on the grains, per volume of fluid [N/m^3], as `f_x | f_y`, expressions "
+                      "in t and constants as in Boundary conditions. Gravity is not part of it.");
+    prm.add_parameter(
+      "Mean pressure gradient",
+      gradient_text,
+      "Gradient of the mean pressure along periodic directions [Pa/m], as `dp/dx | dp/dy`, expressions as "
+      "for the body force: -10 | 0 drives the flow to the right. It acts on fluid and grains as any "
+      "pressure does. Across a periodic direction the pressure of the fluid at rest cannot build up: "
+      "gravity along it drives the flow, and only this gradient can hold it.");
+  }
+
+
+  template <int dim>
+  void Driving<dim>::initialize(const std::map<std::string, double> &constants,
+                                const std::array<double, dim>       &periodic_length)
+  {
+    const auto parse = [&](const std::string &where, const std::string &text) {
+      const auto components = Utilities::split_string_list(text, '|');
+      check_user(components.size() == dim,
+                 where + ": expected " + std::to_string(dim) + " expressions separated by '|', got '" + text + "'.");
+      for (const auto &component : components)
+        check_user(!mentions(component, "x") && !mentions(component, "y"),
+                   where + ": '" + component + "' must not depend on place.");
+      return parse_expressions(where, components, constants);
+    };
+    force_function        = parse("Fluid/Body force", force_text);
+    gradient_function     = parse("Fluid/Mean pressure gradient", gradient_text);
+    const auto components = Utilities::split_string_list(gradient_text, '|');
+    for (unsigned int d = 0; d < dim; ++d)
+      check_user(periodic_length[d] > 0. || components[d] == "0" || components[d] == "0.",
+                 std::string("Fluid/Mean pressure gradient: ") + "xy"[d] +
+                   " is no periodic direction: pressures on boundaries, or Fluid/Body force, drive the flow there.");
+    set_time(0.);
+  }
+
+
+  template <int dim>
+  void Driving<dim>::set_time(const double time)
+  {
+    if (!force_function)
+      return;
+    force_function->set_time(time);
+    gradient_function->set_time(time);
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        force[d]    = force_function->value({}, d);
+        gradient[d] = gradient_function->value({}, d);
+        check_user(
+          std::isfinite(force[d]) && std::isfinite(gradient[d]),
+          std::string("Fluid/") +
+            (std::isfinite(force[d]) ? "Mean pressure gradient: '" + gradient_text : "Body force: '" + force_text) +
+            "' is not finite at t = " + std::to_string(time) + " s.");
+      }
+  }
+
+
+  template <int dim>
+  Tensor<1, dim> Driving<dim>::background_gradient(const Tensor<1, dim>          &hydrostatic_gradient,
+                                                   const std::array<double, dim> &periodic_length) const
+  {
+    Tensor<1, dim> result = hydrostatic_gradient;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (periodic_length[d] > 0.)
+        result[d] = gradient[d];
+    return result;
+  }
+
+
+  template class Driving<2>;
+} // namespace alluvium::fluid
