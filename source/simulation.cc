@@ -1,5 +1,6 @@
 #include <alluvium/run/check_boundaries.h>
 #include <alluvium/run/checkpoint.h>
+#include <alluvium/run/leavers.h>
 #include <alluvium/run/mesh_changes.h>
 #include <alluvium/run/model.h>
 #include <alluvium/run/output.h>
@@ -57,6 +58,7 @@ namespace alluvium
     void report_restart() const;
     bool has_ended() const { return model.time >= end_time - 1e-6 * model.time_step; }
     int  advance();
+    void choose_time_step(double full);
     void step();
     void count_step();
 
@@ -75,7 +77,10 @@ namespace alluvium
     output.add_parameters(prm);
     guard.add_parameters(prm);
     prm.enter_subsection("Time");
-    prm.add_parameter("End time", end_time, "When the run ends [s].", Patterns::Double(0.));
+    prm.add_parameter("End time",
+                      end_time,
+                      "When the run ends [s]. Where it is no multiple of the time step, the last step is shorter.",
+                      Patterns::Double(0.));
     prm.leave_subsection();
     prm.enter_subsection("Output");
     prm.add_parameter("Restart", restart, "Continue from the checkpoint in the output folder.");
@@ -86,8 +91,7 @@ namespace alluvium
 
   void Simulation::Implementation::report_scene() const
   {
-    if (model.speaks)
-      run::report_scene(model, output.observers(), std::cout);
+    run::report_scene(model, output, end_time, std::cout);
   }
 
 
@@ -182,8 +186,10 @@ namespace alluvium
     Progress              shown(model.communicator, model.time, end_time, style, std::cout);
     int                   signal = 0;
     guard.start();
+    const double full = model.time_step;
     while (signal == 0 && !has_ended())
       {
+        choose_time_step(full);
         try
           {
             step();
@@ -204,14 +210,33 @@ namespace alluvium
   }
 
 
+  /** The last step ends at the end time; where little would be left for it, it shares with the one before. */
+  void Simulation::Implementation::choose_time_step(const double full)
+  {
+    constexpr double round_off = 1e-6, little = 0.1;
+    const double     left = end_time - model.time;
+    double           dt   = full;
+    if (left < (1. - round_off) * full)
+      dt = left;
+    else if (left > (1. + round_off) * full && left < (1. + little) * full)
+      dt = 0.5 * left;
+    if (dt == model.time_step)
+      return;
+    model.time_step = dt;
+    model.clock     = {model.time, model.n_steps, dt};
+  }
+
+
   /** One step: the order of the paper's section 2.3. */
   void Simulation::Implementation::step()
   {
     run::Model  &m  = model;
     const double dt = m.time_step;
+    if (run::remove_leavers(m))
+      guard.after_removal();
     if (m.has_fluid)
       {
-        if (m.adaptivity.due(m.n_steps))
+        if (m.adaptivity.due(m.n_steps) && m.grains.n() > 0) // cell sizes are measured in grains
           {
             guard.before_mesh_change();
             run::adapt_mesh(m);
@@ -238,6 +263,7 @@ namespace alluvium
         m.touched        = m.contacts.touched();
         m.store.scatter(m.grains);
         m.grains = m.store.gather();
+        run::count_leavers(m);
       }
     m.time = m.clock.at(++m.n_steps);
   }

@@ -38,7 +38,7 @@ namespace alluvium::coupling
       double sum = 0.;
       for (const double x : components)
         sum += x * x;
-      return std::sqrt(2. * sum / components.size());
+      return components.empty() ? 0. : std::sqrt(2. * sum / components.size());
     }
 
     double size_of_sum(const std::vector<double> &components)

@@ -99,6 +99,23 @@ namespace alluvium::coupling
   }
 
 
+  void Coupling::remove_grains(const std::vector<std::uint8_t> &keep)
+  {
+    if (outside.size() == keep.size())
+      {
+        std::size_t n = 0;
+        for (std::size_t g = 0; g < keep.size(); ++g)
+          if (keep[g])
+            outside[n++] = outside[g];
+        outside.resize(n);
+      }
+    still = resumes = false;
+    force.clear(); // until the step finds them anew
+    predicted.clear();
+    forget_positions();
+  }
+
+
   void Coupling::save(ByteWriter                      &writer,
                       const grains::GrainArrays       &grains,
                       const std::vector<std::uint8_t> &touched,
@@ -523,7 +540,7 @@ namespace alluvium::coupling
     for (std::size_t g = 0; g < force.size(); ++g)
       if (const auto w = latest_state->reduced_weight(g); !std::isinf(latest_state->grains.mass[g]))
         weight += std::hypot(w[0], w[1]);
-    return std::max(weight, last.force_scale) / force.size();
+    return force.empty() ? 0. : std::max(weight, last.force_scale) / force.size();
   }
 
 

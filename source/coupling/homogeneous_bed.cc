@@ -1,7 +1,9 @@
+#include <alluvium/coupling/coupling.h>
 #include <alluvium/coupling/homogeneous_bed.h>
 #include <alluvium/fluid/vans_problem.h>
 #include <alluvium/grains/packing.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
 
 #include <boost/math/tools/roots.hpp>
@@ -44,6 +46,40 @@ namespace alluvium::coupling
     const auto [low, high]      = boost::math::tools::bracket_and_solve_root(
       excess, start, 2., true, boost::math::tools::eps_tolerance<double>(48), n_iterations);
     return eps * 0.5 * (low + high);
+  }
+
+
+  double HomogeneousBed::relaxation_time(const DragLaw &law) const
+  {
+    double mass = 0.;
+    for (const double m : grains.mass)
+      mass += std::isinf(m) ? 0. : m;
+    return mass / resistance(law, 0.);
+  }
+
+
+  double permeability_of_pieces(const Coupling               &coupling,
+                                const fluid::FluidSpace<2>   &space,
+                                const fluid::FluidProperties &fluid,
+                                const grains::GrainArrays    &grains,
+                                const double                  area)
+  {
+    constexpr double smallest_eps = 0.05; // that drag laws know
+    const auto      &pieces       = coupling.overlap().terms();
+    const auto      &eps          = coupling.void_fraction();
+    double           sum          = 0.;
+    for (unsigned int c = 0; c < space.cells().size(); ++c)
+      for (unsigned int k = pieces.begin[c]; k < pieces.begin[c + 1]; ++k)
+        {
+          double e = 0.;
+          for (unsigned int v = 0; v < space.n_nodes_per_cell(); ++v)
+            e += pieces.shape[k].phi[v] * eps.local_element(space.cells()[c].node[v]);
+          e              = std::max(e, smallest_eps);
+          const double d = 2. * grains.fluid_radius[coupling.overlap().grain()[k]];
+          sum += pieces.shape[k].area * coupling.drag_law().gamma({e, 0., d, fluid.density, fluid.viscosity}) / (e * e);
+        }
+    sum = dealii::Utilities::MPI::sum(sum, space.communicator());
+    return sum > 0. ? fluid.viscosity * area / sum : 0.;
   }
 
 

@@ -1,6 +1,8 @@
+#include <alluvium/fluid/cell_order.h>
 #include <alluvium/fluid/line_average.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/dofs/dof_accessor.h>
 
 #include <limits>
 
@@ -79,6 +81,47 @@ namespace alluvium::fluid
   }
 
 
+  template <int dim>
+  double boundary_average(const FluidSpace<dim>                                                         &space,
+                          const BlockVector                                                             &solution,
+                          const types::boundary_id                                                       id,
+                          const std::function<double(const std::array<double, dim> &u, const double p)> &function)
+  {
+    double     sum[2] = {0., 0.};
+    const auto add    = [&](const unsigned int i, const unsigned int v, const double weight) {
+      const auto             &cell = space.cells()[i];
+      std::array<double, dim> u;
+      for (unsigned int d = 0; d < dim; ++d)
+        u[d] = solution.block(0).local_element(cell.velocity[v][d]);
+      sum[0] += weight * function(u, solution.block(1).local_element(cell.pressure[v]));
+      sum[1] += weight;
+    };
+    unsigned int index = 0;
+    for (const auto &cell : ordered_cells(space.dof_handler()))
+      if (cell->is_locally_owned())
+        {
+          for (const unsigned int f : cell->face_indices())
+            if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == id)
+              for (unsigned int e = 0; e < 2; ++e)
+                for (unsigned int v = 0; v < space.n_nodes_per_cell(); ++v)
+                  if (cell->face(f)->vertex_index(e) == cell->vertex_index(v))
+                    add(index, v, 0.5 * cell->face(f)->measure());
+          ++index;
+        }
+    if (Utilities::MPI::sum(sum[1], space.communicator()) == 0.) // a part of a side, known by its nodes only
+      for (const auto &[i, weight] : space.weights_at(id))
+        for (unsigned int v = 0; v < space.n_nodes_per_cell(); ++v)
+          if (weight[v] > 0.)
+            add(i, v, weight[v]);
+    Utilities::MPI::sum(ArrayView<const double>(sum, 2), space.communicator(), ArrayView<double>(sum, 2));
+    return sum[0] / sum[1];
+  }
+
+
+  template double boundary_average<2>(const FluidSpace<2> &,
+                                      const BlockVector &,
+                                      const types::boundary_id,
+                                      const std::function<double(const std::array<double, 2> &, const double)> &);
   template double line_average<2>(const FluidSpace<2> &,
                                   const BlockVector &,
                                   const double,

@@ -7,13 +7,44 @@
 #include <alluvium/grains/soft_spheres.h>
 #include <alluvium/utilities/plugin.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <stdexcept>
+#include <vector>
 
 namespace alluvium::grains
 {
   namespace
   {
     constexpr const char *default_solver = "accelerated Gauss-Seidel";
+
+
+    /** Whether every grain hangs together with a wall, or with a grain of infinite mass, by contacts that press. */
+    bool all_are_supported(const GrainArrays &grains, const ContactArchive &contacts)
+    {
+      const std::size_t        n = grains.n(), support = n;
+      std::vector<std::size_t> parent(n + 1);
+      std::iota(parent.begin(), parent.end(), std::size_t(0));
+      const auto root = [&](std::size_t k) {
+        while (parent[k] != k)
+          k = parent[k] = parent[parent[k]];
+        return k;
+      };
+      const auto number = [&](const GrainId id) -> std::size_t {
+        return std::lower_bound(grains.id.begin(), grains.id.end(), id) - grains.id.begin();
+      };
+      for (const ContactArchive::Entry &e : contacts.entries)
+        if (e.rn != 0. || e.bonded)
+          parent[root(number(e.a))] = root(e.wall ? support : number(e.b));
+      for (std::size_t k = 0; k < n; ++k)
+        if (std::isinf(grains.mass[k]))
+          parent[root(k)] = root(support);
+      for (std::size_t k = 0; k < n; ++k)
+        if (root(k) != root(support))
+          return false;
+      return true;
+    }
   } // namespace
 
 
@@ -138,6 +169,12 @@ namespace alluvium::grains
       for (unsigned int d = 0; d < 2; ++d)
         report.wall_force[walls.segments()[k].name][d] += substep.wall_impulses()[k][d] / dt;
     rest.watch(grains, loads, rest_scales, work.all_touched, report);
+    // grains that touch each other only, in mid-water, are slow, but not at rest
+    if (rest.steps > 0 && report.n_quiet >= rest.steps && !all_are_supported(grains, work.archive()))
+      {
+        rest.forget();
+        report.n_quiet = 0;
+      }
     return report;
   }
 

@@ -190,7 +190,8 @@ namespace alluvium::grains
       for (std::size_t i = 0; i < grains.n(); ++i)
         {
           const double x = grains.x[i], y = grains.y[i];
-          if (!(x >= lower[0] && x <= upper[0] && y >= lower[1] && y <= upper[1]))
+          const bool   finite = std::isfinite(x) && std::isfinite(y);
+          if (!(x >= lower[0] && x <= upper[0] && y >= lower[1] && y <= upper[1]) && !(may_leave && finite))
             {
               std::ostringstream text;
               text << "Grain " << grains.id[i] << " left the domain: it is at (" << x << ", " << y
@@ -220,6 +221,10 @@ namespace alluvium::grains
     void insert_all(const GrainArrays &grains)
     {
       check_positions(grains);
+      ids = grains.id;
+      number_of_id.assign(ids.empty() ? 0 : ids.back() + 1, 0);
+      for (std::size_t i = 0; i < ids.size(); ++i)
+        number_of_id[ids[i]] = i;
       particles->clear_particles();
       for (std::size_t i = 0; i < grains.n(); ++i)
         insert(grains, i);
@@ -233,7 +238,7 @@ namespace alluvium::grains
     {
       std::vector<unsigned int> found(n_grains, 0);
       for (const auto &particle : *particles)
-        ++found[particle.get_id()];
+        ++found[number_of_id[particle.get_id()]];
       std::vector<unsigned int> found_anywhere(n_grains);
       Utilities::MPI::sum(found, communicator, found_anywhere);
       for (std::size_t i = 0; i < n_grains; ++i)
@@ -255,6 +260,9 @@ namespace alluvium::grains
     std::array<double, 2>                          size    = {{0., 0.}}; // of a cell
     std::vector<Cell>                              my_cells; // by number; invalid where another rank owns it
     std::size_t                                    n_grains = 0, n_rescued = 0;
+    std::vector<GrainId>                           ids; // of all grains, in rising order
+    std::vector<std::uint32_t>                     number_of_id;
+    bool                                           may_leave = false;
     MappingCartesian<2>                            mapping;
     parallel::distributed::Triangulation<2>        grid{communicator};
     std::unique_ptr<Particles::ParticleHandler<2>> particles;
@@ -274,11 +282,23 @@ namespace alluvium::grains
                               const std::array<double, 2> &upper,
                               const double                 skin)
   {
-    for (std::size_t i = 0; i < grains.n(); ++i)
-      AssertThrow(grains.id[i] == i, ExcMessage("Grains must have the ids 0, 1, ..., n-1."));
+    for (std::size_t i = 1; i < grains.n(); ++i)
+      AssertThrow(grains.id[i - 1] < grains.id[i], ExcMessage("Grains must be sorted by their ids."));
     implementation->make_grid(grains, lower, upper, skin);
     implementation->insert_all(grains);
     implementation->n_rescued = 0;
+  }
+
+
+  void GrainStore::let_leave(const bool yes)
+  {
+    implementation->may_leave = yes;
+  }
+
+
+  void GrainStore::replace(const GrainArrays &grains)
+  {
+    implementation->insert_all(grains);
   }
 
 
@@ -331,10 +351,12 @@ namespace alluvium::grains
     for (std::size_t k = 0; k < my.n_grains; ++k)
       {
         const double *grain = &all[n_wire * k];
-        const auto    i     = static_cast<std::size_t>(grain[0]);
+        const auto    id    = static_cast<GrainId>(grain[0]);
+        AssertThrow(id < my.number_of_id.size(), ExcInternalError());
+        const std::size_t i = my.number_of_id[id];
         AssertThrow(i < my.n_grains && !seen[i], ExcInternalError());
         seen[i]      = true;
-        result.id[i] = i;
+        result.id[i] = id;
         result.x[i]  = grain[1];
         result.y[i]  = grain[2];
         for (unsigned int p = 0; p < properties.size(); ++p)
@@ -356,7 +378,7 @@ namespace alluvium::grains
     std::vector<Particles::ParticleIterator<2>> far;
     for (auto particle = my.particles->begin(); particle != my.particles->end(); ++particle)
       {
-        const auto i = particle->get_id();
+        const auto i = my.number_of_id[particle->get_id()];
         if (!my.are_neighbors(particle->get_surrounding_cell()->center(), Point<2>(grains.x[i], grains.y[i])))
           {
             far.push_back(particle);

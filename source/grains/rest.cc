@@ -77,9 +77,11 @@ namespace alluvium::grains
   {
     if (steps == 0 || !(scales.g > 0.))
       return;
-    // What touches nothing has nothing to rest on: it is only slow.
+    // What touches nothing has nothing to rest on: it is only slow. So is what creeps as fast as a thick fluid lets it.
+    constexpr double largest_drag = 1e-2; // of a grain's weight
     for (std::size_t k = 0; k < grains.n(); ++k)
-      if (!touched[k] && !std::isinf(grains.mass[k]))
+      if (!std::isinf(grains.mass[k]) &&
+          (!touched[k] || loads.drag[k] * std::hypot(grains.vx[k], grains.vy[k]) > largest_drag * scales.weight))
         {
           report.n_quiet = n_quiet = 0;
           return;

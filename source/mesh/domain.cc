@@ -106,8 +106,8 @@ namespace alluvium::mesh
     prm.add_parameter(
       "Open to grains",
       open_to_grains,
-      "Names of the boundaries that are no walls for the grains, separated by commas. A grain that leaves "
-      "the domain stops the run, so this is for boundaries with other walls before them.");
+      "Names of the boundaries that are no walls for the grains, separated by commas. A grain whose centre "
+      "crosses one of them is taken out and counted, and the run goes on without it.");
     prm.add_parameter("Periodic directions",
                       periodic_directions,
                       "Directions in which the rectangle repeats itself, for fluid and grains: what leaves it at one "
@@ -171,9 +171,12 @@ namespace alluvium::mesh
                                 wall_segments.end());
           }
 
+    all_sides = wall_segments;
     name_parts();
+    for (const auto &part : named_parts)
+      name_in_sides(part);
 
-    for (const auto &name : Utilities::split_string_list(open_to_grains))
+    for (const auto &name : open_to_grains_names())
       {
         std::string known;
         for (const auto &[other, id] : ids)
@@ -207,6 +210,40 @@ namespace alluvium::mesh
 
 
   template <int dim>
+  std::vector<std::string> Domain<dim>::open_to_grains_names() const
+  {
+    return Utilities::split_string_list(open_to_grains);
+  }
+
+
+  template <int dim>
+  void Domain<dim>::name_in_sides(const geometry::BoundaryPart &part)
+  {
+    std::vector<grains::WallSegment> sides;
+    for (const auto &side : all_sides)
+      {
+        if (side.name != part.side_name)
+          {
+            sides.push_back(side);
+            continue;
+          }
+        for (const auto &piece : geometry::divide_face({part}, part.side, side.a, side.b))
+          {
+            sides.push_back(side);
+            for (unsigned int d = 0; d < 2; ++d)
+              {
+                sides.back().a[d] = side.a[d] + piece.begin * (side.b[d] - side.a[d]);
+                sides.back().b[d] = side.a[d] + piece.end * (side.b[d] - side.a[d]);
+              }
+            if (piece.id == part.id)
+              sides.back().name = part.name;
+          }
+      }
+    all_sides = sides;
+  }
+
+
+  template <int dim>
   void Domain<dim>::open_part(const geometry::BoundaryPart &part)
   {
     std::vector<grains::WallSegment> walls;
@@ -230,6 +267,50 @@ namespace alluvium::mesh
             }
       }
     wall_segments = walls;
+  }
+
+
+  template <int dim>
+  std::string Domain<dim>::left_through(const std::array<double, 2> &point) const
+  {
+    const auto open = open_to_grains_names();
+    if (open.empty())
+      return "";
+    const double x = point[0], y = point[1];
+    bool         inside;
+    if (is_rectangle())
+      {
+        const auto box = periodicity();
+        inside         = true;
+        for (unsigned int d = 0; d < 2; ++d)
+          inside = inside && (box.length[d] > 0. || (point[d] >= lower_corner[d] && point[d] <= upper_corner[d]));
+      }
+    else
+      {
+        // a ray to the right crosses the boundary an odd number of times
+        inside = false;
+        for (const auto &s : all_sides)
+          if ((s.a[1] > y) != (s.b[1] > y) && x < s.a[0] + (y - s.a[1]) / (s.b[1] - s.a[1]) * (s.b[0] - s.a[0]))
+            inside = !inside;
+      }
+    if (inside)
+      return "";
+    std::string name;
+    double      nearest = std::numeric_limits<double>::max();
+    for (const bool is_open : {true, false}) // at a corner, through the open side
+      for (const auto &s : all_sides)
+        if ((std::find(open.begin(), open.end(), s.name) != open.end()) == is_open)
+          {
+            const double ex = s.b[0] - s.a[0], ey = s.b[1] - s.a[1];
+            const double t        = std::clamp(((x - s.a[0]) * ex + (y - s.a[1]) * ey) / (ex * ex + ey * ey), 0., 1.);
+            const double distance = std::hypot(x - s.a[0] - t * ex, y - s.a[1] - t * ey);
+            if (distance < (1. - 1e-9) * nearest)
+              {
+                nearest = distance;
+                name    = s.name;
+              }
+          }
+    return name;
   }
 
 

@@ -50,7 +50,7 @@ namespace alluvium::observers
             const auto &report = s.fluid->coupling.report();
             const auto &v_star = s.fluid->coupling.predicted_velocity();
             double      mean = 0., largest = 0., defect = 0.;
-            for (std::size_t i = 0; i < s.grains.n(); ++i)
+            for (std::size_t i = 0; i < std::min(s.grains.n(), v_star.size()); ++i)
               {
                 const double d = std::hypot(s.grains.vx[i] - v_star[i][0], s.grains.vy[i] - v_star[i][1]);
                 mean += d / s.grains.n();
@@ -71,7 +71,7 @@ namespace alluvium::observers
           }
         if (s.contacts)
           {
-            const double d = mesh::mean_diameter(s.grains);
+            const double d = s.grains.n() > 0 ? mesh::mean_diameter(s.grains) : 1.;
             statistics.set("mean_penetration_over_d", s.contacts->mean_penetration / d);
             statistics.set("contact_residual", s.contacts->residual);
             penetration = std::max(penetration, s.contacts->max_penetration / d);

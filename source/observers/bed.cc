@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace alluvium::observers
 {
@@ -35,7 +36,8 @@ namespace alluvium::observers
             fastest         = std::max(fastest, std::sqrt(v2));
             energy += 0.5 * (g.mass[i] * v2 + grains::disc_inertia(g.mass[i], g.radius[i]) * g.omega[i] * g.omega[i]);
           }
-        height = mesh::find_bed_faces(g, s.left, s.right, geometry::Upright::of(s.gravity)).mean_height();
+        const auto faces = mesh::find_bed_faces(g, s.left, s.right, geometry::Upright::of(s.gravity));
+        height           = faces.empty() ? std::numeric_limits<double>::quiet_NaN() : faces.mean_height();
         statistics.set("bed_height_m", height);
         statistics.set("largest_grain_velocity_m_per_s", fastest);
         statistics.set("kinetic_energy_J_per_m", energy);
@@ -50,7 +52,10 @@ namespace alluvium::observers
       void conclude(Summary &summary) const override { summary.set("bed/final_height_m", height); }
 
       void save(nlohmann::ordered_json &state) const override { state = height; }
-      void load(const nlohmann::ordered_json &state) override { height = state.get<double>(); }
+      void load(const nlohmann::ordered_json &state) override
+      {
+        height = state.is_null() ? std::numeric_limits<double>::quiet_NaN() : state.get<double>();
+      }
 
     private:
       double height = 0.;

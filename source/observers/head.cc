@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 namespace alluvium::observers
 {
   namespace
@@ -9,7 +11,7 @@ namespace alluvium::observers
     class Head : public Observer
     {
     public:
-      bool applies(const Snapshot &s) const override { return s.fluid != nullptr; }
+      bool applies(const Snapshot &s) const override { return s.fluid && std::isfinite(s.fluid->head); }
       void add_columns(const Snapshot &, Statistics &statistics) override
       {
         statistics.add_column("differential_head_m");
@@ -38,5 +40,6 @@ namespace alluvium::observers
 
   ALLUVIUM_REGISTER_OBSERVER(Head,
                              "head",
-                             "Differential head between the bottom and the top of the bed as it was at t = 0.")
+                             "Differential head: between the bottom and the top of the bed as it was at t = 0, or what "
+                             "Head between says.")
 } // namespace alluvium::observers

@@ -47,16 +47,18 @@ namespace alluvium::observers
 
       void observe(const Snapshot &s) override
       {
-        const auto  &g         = s.grains;
-        const double threshold = 2. * distance * *std::max_element(g.radius.begin(), g.radius.end());
-        double       moving = 0., mass = 0.;
+        const auto &g = s.grains;
+        for (const double r : g.radius)
+          largest = std::max(largest, 2. * r);
+        const double threshold = distance * largest;
+        double       moving = s.leavers.total().mass, mass = moving;
         for (std::size_t i = 0; i < g.n(); ++i)
           {
             mass += g.mass[i];
             if (std::hypot(g.x[i] - g.x0[i], g.y[i] - g.y0[i]) > threshold)
               moving += g.mass[i];
           }
-        const double now  = moving / mass;
+        const double now  = mass > 0. ? moving / mass : 0.;
         const double head = s.fluid ? s.fluid->head : std::numeric_limits<double>::quiet_NaN();
         const auto   mark = [&](Event &event, const double level) {
           if (!event.happened() && now >= level && s.step > 0)
@@ -92,8 +94,9 @@ namespace alluvium::observers
 
       void save(nlohmann::ordered_json &state) const override
       {
-        state = {
-          {"first", {first.time, first.head}}, {"heave", {heave.time, heave.head}}, {"last", {fraction, last_head}}};
+        state = {{"first", {first.time, first.head}},
+                 {"heave", {heave.time, heave.head}},
+                 {"last", {fraction, last_head, largest}}};
       }
 
       void load(const nlohmann::ordered_json &state) override
@@ -105,11 +108,13 @@ namespace alluvium::observers
         heave     = {number(state.at("heave")[0]), number(state.at("heave")[1])};
         fraction  = number(state.at("last")[0]);
         last_head = number(state.at("last")[1]);
+        largest   = number(state.at("last")[2]);
       }
 
     private:
       double distance = 1., first_fraction = 0.05, heave_fraction = 0.95;
       double fraction = 0., last_head = 0.;
+      double largest = 0.; // diameter [m]
       Event  first, heave;
     };
   } // namespace

@@ -6,11 +6,19 @@
 
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace alluvium::observers
 {
   namespace
   {
+    std::string in_digits(const double x)
+    {
+      std::ostringstream text;
+      text << x;
+      return text.str();
+    }
+
     /**
      * Hindered settling, to be compared with the drag law. In a homogeneous suspension without net flux the pressure
      * gradient carries the mixture, so that gamma w = eps (rho_p - rho) g for the slip w, and grains sink with eps w:
@@ -25,13 +33,20 @@ namespace alluvium::observers
         prm.add_parameter("Top", top, "Only grains with their centre below are looked at [m].");
       }
 
-      bool applies(const Snapshot &s) const override { return s.fluid && std::hypot(s.gravity[0], s.gravity[1]) > 0.; }
-
-      void add_columns(const Snapshot &, Statistics &statistics) override
+      bool applies(const Snapshot &s) const override
       {
+        check_user(bottom < s.top && top > s.bottom,
+                   "Output/Observers: settling: from 'Bottom' = " + in_digits(bottom) +
+                     " m to 'Top' = " + in_digits(top) + " m there is nothing of the domain, which reaches from " +
+                     in_digits(s.bottom) + " to " + in_digits(s.top) + " m.");
         check_user(top > bottom,
                    "Output/Observers: settling: 'Bottom' and 'Top' must be the ends of a range of heights [m]: " +
                      std::to_string(bottom) + " and " + std::to_string(top) + " are not.");
+        return s.fluid && std::hypot(s.gravity[0], s.gravity[1]) > 0.;
+      }
+
+      void add_columns(const Snapshot &, Statistics &statistics) override
+      {
         for (const auto *name : {"settling_speed_m_per_s",
                                  "settling_speed_over_drag_law",
                                  "settling_speed_rms_m_per_s",
@@ -63,7 +78,7 @@ namespace alluvium::observers
               square += v * down * down;
               sideways += v * across * across;
               weight += (g.mass[i] - density * v) * size;
-              if (!force.empty())
+              if (i < force.size())
                 up -= (force[i][0] * s.gravity[0] + force[i][1] * s.gravity[1]) / size;
             }
         if (inside.n() == 0)

@@ -60,7 +60,7 @@ namespace alluvium::observers
             mean[2] += a * stresses[k][3];
           }
         for (unsigned int c = 0; c < 3; ++c)
-          statistics.set(names[c], mean[c] / area);
+          statistics.set(names[c], area > 0. ? mean[c] / area : 0.);
       }
 
       void save(nlohmann::ordered_json &state) const override { state = written; }

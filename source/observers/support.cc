@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,23 +14,38 @@ namespace alluvium::observers
   namespace
   {
     /**
-     * Who carries the grains: floor, walls, fluid. The bed is fluidised by force balance at the head at which the fluid
-     * carries the whole reduced weight, (s phi_m - phi_b) L whatever the mesh and the drag law (L the height of the
-     * bed, phi_m the packing that has mass, phi_b the packing that the fluid sees).
+     * Who carries the grains: floor, walls, fluid. Where the flow crosses a bed that reaches from side to side, it is
+     * fluidised by force balance at the head at which the fluid carries the whole reduced weight, (s phi_m - phi_b) L
+     * whatever the mesh and the drag law (L the height of the bed, phi_m the packing that has mass, phi_b the packing
+     * that the fluid sees). Elsewhere there is no such onset.
      */
     class Support : public Observer
     {
     public:
       void add_parameters(dealii::ParameterHandler &prm) override
       {
-        prm.add_parameter("Floor", floor, "Name of the wall that is the floor.");
+        prm.add_parameter("Floor",
+                          floor,
+                          "Name of the wall that is the floor. Where the default is not among the walls, there is no "
+                          "floor, and what needs one is left out.");
       }
 
-      bool applies(const Snapshot &s) const override { return std::hypot(s.gravity[0], s.gravity[1]) > 0.; }
+      bool applies(const Snapshot &s) const override
+      {
+        std::string known;
+        for (const auto &wall : s.walls)
+          if (known.find("'" + wall.name + "'") == std::string::npos)
+            known += (known.empty() ? "'" : ", '") + wall.name + "'";
+        check_user(floor == default_floor || has_floor(s),
+                   "Output/Observers: support/Floor: there is no wall '" + floor + "'. The walls are " +
+                     (known.empty() ? "none" : known) + ".");
+        return std::hypot(s.gravity[0], s.gravity[1]) > 0.;
+      }
 
       void add_columns(const Snapshot &s, Statistics &statistics) override
       {
-        statistics.add_column("floor_force_over_weight");
+        if (has_floor(s))
+          statistics.add_column("floor_force_over_weight");
         statistics.add_column("wall_force_over_weight");
         if (s.fluid)
           statistics.add_column("fluid_force_over_weight");
@@ -48,8 +64,11 @@ namespace alluvium::observers
             area_fluid += area;
             weight += (g.mass[i] - rho * area) * g_norm;
           }
+        if (weight == 0.) // no grains, or as heavy as the fluid
+          weight = std::numeric_limits<double>::infinity();
         if (s.contacts)
           {
+            knows_floor = has_floor(s);
             floor_share = wall_share = 0.;
             for (const auto &[name, force] : s.contacts->wall_force)
               {
@@ -61,22 +80,22 @@ namespace alluvium::observers
           }
         if (s.fluid)
           {
-            if (s.step == 0)
+            if (s.step == 0 && s.fluid->head_of_bed && s.fluid->crosses_bed)
               exact = (mass / rho - area_fluid) / (s.right - s.left);
             const auto  &report = s.fluid->coupling.report();
             const double now =
               s.step == 0 ? 0.
                           : -(report.force_on_grains[0] * s.gravity[0] + report.force_on_grains[1] * s.gravity[1]) /
                               (g_norm * weight);
-            if (!std::isfinite(onset_head) && now >= 1. && s.step > 0)
+            if (std::isfinite(exact) && !std::isfinite(onset_head) && now >= 1. && s.step > 0)
               {
                 const double part = now > fluid_share ? (1. - fluid_share) / (now - fluid_share) : 1.;
                 onset_head        = last_head + part * (s.fluid->head - last_head);
                 onset_time        = s.time - (1. - part) * s.dt;
               }
             // the floor lets go: its force, nearly linear in the head, extrapolated to zero from 2 % of the weight
-            if (!std::isfinite(floor_head) && s.contacts && s.step > 1 && floor_share < 0.02 &&
-                last_floor > floor_share)
+            if (std::isfinite(exact) && knows_floor && !std::isfinite(floor_head) && s.contacts && s.step > 1 &&
+                floor_share < 0.02 && last_floor > floor_share)
               floor_head = s.fluid->head + floor_share * (s.fluid->head - last_head) / (last_floor - floor_share);
             fluid_share = now;
             last_head   = s.fluid->head;
@@ -88,7 +107,8 @@ namespace alluvium::observers
       {
         if (s.contacts)
           {
-            statistics.set("floor_force_over_weight", floor_share);
+            if (has_floor(s))
+              statistics.set("floor_force_over_weight", floor_share);
             statistics.set("wall_force_over_weight", wall_share);
           }
         if (s.fluid)
@@ -97,7 +117,8 @@ namespace alluvium::observers
 
       void conclude(Summary &summary) const override
       {
-        summary.set("support/final_floor_force_over_weight", floor_share);
+        if (knows_floor)
+          summary.set("support/final_floor_force_over_weight", floor_share);
         summary.set("support/final_wall_force_over_weight", wall_share);
         if (std::isfinite(exact))
           summary.set("onset by force balance/exact_head_m", exact);
@@ -136,9 +157,16 @@ namespace alluvium::observers
       }
 
     private:
-      static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+      static constexpr double      nan           = std::numeric_limits<double>::quiet_NaN();
+      static constexpr const char *default_floor = "bottom";
 
-      std::string floor       = "bottom";
+      bool has_floor(const Snapshot &s) const
+      {
+        return std::any_of(s.walls.begin(), s.walls.end(), [&](const auto &wall) { return wall.name == floor; });
+      }
+
+      std::string floor       = default_floor;
+      bool        knows_floor = true;
       double      floor_share = 0., wall_share = 0., fluid_share = 0., last_head = 0., last_floor = 1.;
       double      exact = nan, onset_head = nan, onset_time = nan, floor_head = nan;
     };

@@ -69,6 +69,8 @@ namespace alluvium::run
     state["counts"]        = m.counts;
     state["coarse size"]   = m.coarse_size;
     state["never refines"] = m.never_refines;
+    for (const auto &[side, d] : m.leavers.by_side)
+      state["grains that left"][side] = {d.n, d.mass, d.momentum[0], d.momentum[1]};
     for (const auto &c : m.initial_bed.columns)
       state["initial bed"].push_back({c.left, c.right, c.bottom, c.top});
     for (const auto &[name, value] : m.parameters)
@@ -170,6 +172,11 @@ namespace alluvium::run
         for (const auto &c : state.at("initial bed"))
           m.initial_bed.columns.push_back(
             {c.at(0).get<double>(), c.at(1).get<double>(), c.at(2).get<double>(), c.at(3).get<double>()});
+      m.leavers.by_side.clear();
+      if (state.contains("grains that left"))
+        for (const auto &[side, d] : state.at("grains that left").items())
+          m.leavers.by_side[side] = {
+            d.at(0).get<unsigned long>(), d.at(1).get<double>(), {{d.at(2).get<double>(), d.at(3).get<double>()}}};
       if (m.clock.dt != m.time_step)
         m.clock = {m.time, m.n_steps, m.time_step};
 

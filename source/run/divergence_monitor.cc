@@ -19,10 +19,10 @@ namespace alluvium::run
   {
     const std::string smaller_step = "Try a smaller Time/Time step";
 
-    /** Grain @p id of a scene, whose ids are 0, 1, ... */
-    std::array<double, 2> position(const Model &m, const grains::GrainId id)
+    /** Number of grain @p id in the arrays: some may have left. */
+    std::size_t number_of(const Model &m, const grains::GrainId id)
     {
-      return {{m.grains.x[id], m.grains.y[id]}};
+      return std::lower_bound(m.grains.id.begin(), m.grains.id.end(), id) - m.grains.id.begin();
     }
   } // namespace
 
@@ -60,8 +60,9 @@ namespace alluvium::run
   Sign DivergenceMonitor::judge_energy(const Model &m, const StepMeasures &s)
   {
     unexplained        = std::max(0., unexplained + s.energy.remainder);
-    const double bound = 0.5 * s.energy.kinetic + noise(m);
-    calm               = unexplained < 0.5 * bound;
+    smallest_bound     = std::max(smallest_bound, noise(m)); // grains may leave, what they have left behind stays
+    const double bound = 0.5 * s.energy.kinetic + smallest_bound;
+    calm               = unexplained <= 0.5 * bound;
     if (bound > 0.)
       largest_share_of_bound = std::max(largest_share_of_bound, unexplained / bound);
     if (unexplained <= bound)
@@ -95,8 +96,9 @@ namespace alluvium::run
     for (const auto &o :
          grains::find_overlaps(m.grains, m.contacts.walls(), largest_penetration * smallest, m.domain.periodicity()))
       {
-        const double radius =
-          o.wall.empty() ? std::min(m.grains.radius[o.a], m.grains.radius[o.b]) : m.grains.radius[o.a];
+        const std::size_t a = number_of(m, o.a);
+        const double      radius =
+          o.wall.empty() ? std::min(m.grains.radius[a], m.grains.radius[number_of(m, o.b)]) : m.grains.radius[a];
         const double share = o.depth / (2. * radius);
         if (share <= largest_penetration)
           continue;
@@ -105,7 +107,7 @@ namespace alluvium::run
                 share,
                 largest_penetration,
                 "diameters",
-                position(m, o.a),
+                {{m.grains.x[a], m.grains.y[a]}},
                 "grain " + std::to_string(o.a),
                 "Something presses grains into a place that is too small for them, or they are too fast for the time "
                 "step. " +
@@ -117,7 +119,7 @@ namespace alluvium::run
 
   void DivergenceMonitor::save(nlohmann::ordered_json &state) const
   {
-    state["divergence monitor"] = {unexplained, largest_share_of_bound};
+    state["divergence monitor"] = {unexplained, largest_share_of_bound, smallest_bound};
   }
 
 
@@ -127,6 +129,7 @@ namespace alluvium::run
       return;
     unexplained            = state.at("divergence monitor").at(0).get<double>();
     largest_share_of_bound = state.at("divergence monitor").at(1).get<double>();
+    smallest_bound         = state.at("divergence monitor").at(2).get<double>();
   }
 
 

@@ -18,6 +18,7 @@ namespace alluvium::run
       }
     grains  = m.grains;
     touched = m.touched;
+    leavers = m.leavers;
     if (m.grains_move)
       contacts = m.contacts.archive();
     counts    = m.counts;
@@ -35,6 +36,7 @@ namespace alluvium::run
     m.counts  = counts;
     m.grains  = grains;
     m.touched = touched;
+    m.leavers = leavers;
     // what modules have kept from steps since then is not part of that state
     if (m.grains_move)
       m.contacts.set_archive(contacts);

@@ -1,5 +1,6 @@
 #include <alluvium/fluid/line_average.h>
 #include <alluvium/observers/fluid_output.h>
+#include <alluvium/run/bed_flow.h>
 #include <alluvium/run/model.h>
 #include <alluvium/run/output.h>
 #include <alluvium/utilities/first_rank.h>
@@ -43,10 +44,17 @@ namespace alluvium::run
                       "Files of the fluid's fields: .vtu, or HDF5 with XDMF for big runs.",
                       Patterns::Selection("vtu|hdf5"));
     prm.add_parameter("Digits", precision, "Significant digits in statistics.csv.", Patterns::Integer(3, 17));
+    prm.add_parameter(
+      "Head between",
+      head_between,
+      "Names of two boundaries: the differential head is the mean of p/(rho g) + u^2/(2 g) over the "
+      "first less that over the second, p without its hydrostatic part. Empty: between the bottom and "
+      "the top that the bed had at t = 0, which has a meaning only where gravity points along an axis, the "
+      "bed reaches from side to side and no flow goes past it: elsewhere no head is reported.");
     output_folder.add_parameters(prm);
     choice.add_parameters(prm,
                           "Observers",
-                          "head, motion, support, flux, bed, audit",
+                          "head, motion, support, flux, bed, audit, leavers",
                           "What to measure; those that a scene gives nothing to are left out.",
                           true);
     prm.leave_subsection();
@@ -58,6 +66,7 @@ namespace alluvium::run
     if (model.has_fluid)
       fluid_view = std::make_unique<observers::FluidView>(
         observers::FluidView{model.space, model.solver, model.boundary_conditions, model.coupling});
+    choose_head();
     observing.clear();
     for (observers::Observer *observer : choice.all())
       if (observer->applies(snapshot()))
@@ -107,15 +116,59 @@ namespace alluvium::run
   }
 
 
+  /** Where a head has a meaning. */
+  void Output::choose_head()
+  {
+    head_ids.clear();
+    const auto names = Utilities::split_string_list(head_between);
+    check_user(names.empty() || names.size() == 2,
+               "Output/Head between: expected the names of two boundaries, got '" + head_between + "'.");
+    std::string known;
+    for (const auto &[name, id] : model.domain.boundary_ids())
+      known += (known.empty() ? "'" : ", '") + name + "'";
+    for (const auto &name : names)
+      check_user(model.domain.boundary_ids().count(name) == 1,
+                 "Output/Head between: there is no boundary named '" + name + "'. The domain's boundaries are " +
+                   known + ".");
+    if (!fluid_view || model.gravity_size() == 0.)
+      {
+        check_user(names.empty(), "Output/Head between: without fluid or without gravity there is no head.");
+        return;
+      }
+    for (const auto &name : names)
+      head_ids.push_back(model.domain.boundary_ids().at(name));
+    const BedFlow flow      = flow_across_bed(model);
+    fluid_view->head_of_bed = names.empty() && flow.has_head;
+    fluid_view->crosses_bed = flow.crosses;
+    if (fluid_view->head_of_bed || !names.empty())
+      fluid_view->head = 0.;
+  }
+
+
+  std::string Output::where_head() const
+  {
+    if (!fluid_view)
+      return "";
+    if (!head_ids.empty())
+      return "between the boundaries " + head_between;
+    if (fluid_view->head_of_bed)
+      return "between bottom and top of the bed";
+    return "not reported: the bed is none that a flow crosses from bottom to top. See Output/Head between";
+  }
+
+
   double Output::head() const
   {
     const double g = model.gravity_size(), rho = model.solver.properties.density;
-    if (model.initial_bed.empty() || g == 0.)
+    if (head_ids.empty() && !fluid_view->head_of_bed)
       return std::numeric_limits<double>::quiet_NaN();
     // y + p/(rho g) is the reduced pressure over rho g
     const auto psi = [&](const std::array<double, Model::dim> &u, const double p) {
       return p / (rho * g) + (u[0] * u[0] + u[1] * u[1]) / (2. * g);
     };
+    if (!head_ids.empty())
+      return fluid::boundary_average<Model::dim>(model.space, model.solver.solution(), head_ids[0], psi) -
+             fluid::boundary_average<Model::dim>(model.space, model.solver.solution(), head_ids[1], psi);
     const auto average = [&](const double height) {
       const auto &upright = model.initial_bed.upright;
       return fluid::line_average<Model::dim>(
@@ -134,13 +187,17 @@ namespace alluvium::run
             model.initial_bed,
             model.domain.lower()[1 - model.upright().vertical],
             model.domain.upper()[1 - model.upright().vertical],
+            model.domain.lower()[1],
+            model.domain.upper()[1],
             model.gravity,
             model.grains_move ? &model.contact_report : nullptr,
             fluid_view.get(),
             model.grains_move ? &model.contacts : nullptr,
             output_folder.path(),
             model.communicator,
-            model.mesh_change ? &*model.mesh_change : nullptr};
+            model.mesh_change ? &*model.mesh_change : nullptr,
+            model.leavers,
+            model.contacts.walls()};
   }
 
 

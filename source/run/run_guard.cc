@@ -89,6 +89,12 @@ namespace alluvium::run
   }
 
 
+  void RunGuard::after_removal()
+  {
+    meter.begin(model);
+  }
+
+
   void RunGuard::judge()
   {
     const auto timer = model.timers.scope("divergence monitor");

@@ -1,11 +1,15 @@
-#include <alluvium/coupling/homogeneous_bed.h>
 #include <alluvium/grains/packing.h>
 #include <alluvium/run/model.h>
+#include <alluvium/run/output.h>
+#include <alluvium/run/scene_numbers.h>
 #include <alluvium/run/scene_report.h>
 
 #include <deal.II/grid/tria.h>
 
+#include <algorithm>
+#include <cmath>
 #include <ostream>
+#include <set>
 #include <sstream>
 
 namespace alluvium::run
@@ -24,29 +28,113 @@ namespace alluvium::run
         }
       return turned;
     }
-  } // namespace
 
 
-  void report_scene(const Model &m, const std::string &observers, std::ostream &out)
-  {
-    const auto line = [&](const std::string &what, const std::string &text) {
-      out << "  " << what << std::string(what.size() < 12 ? 12 - what.size() : 1, ' ') << text << '\n';
-    };
-    const auto number = [](const double x) {
+    std::string number(const double x)
+    {
       std::ostringstream text;
       text << x;
       return text.str();
+    }
+
+    std::string rounded(const double x)
+    {
+      std::ostringstream text;
+      text.precision(3);
+      text << x;
+      return text.str();
+    }
+
+    std::string in_words(const fluid::BoundaryConditions<Model::dim>::Condition &condition)
+    {
+      using Kind = fluid::BoundaryConditions<Model::dim>::Kind;
+      const std::string expressions =
+        (condition.text.empty() ? "" : " " + condition.text) + (condition.add_hydrostatic ? " above hydrostatic" : "");
+      switch (condition.kind)
+        {
+          case Kind::no_slip:
+            return "no slip";
+          case Kind::slip:
+            return "slip";
+          case Kind::pressure:
+            return "pressure" + expressions;
+          case Kind::velocity:
+            return "velocity" + expressions;
+          case Kind::natural:
+            return "natural";
+        }
+      return "";
+    }
+
+    /** Every boundary of the domain with what it is to fluid and grains. */
+    std::vector<std::string> boundaries(const Model &m)
+    {
+      std::set<std::string> walls;
+      for (const auto &wall : m.contacts.walls())
+        walls.insert(wall.name);
+      std::vector<std::string> lines;
+      for (const auto &[name, id] : m.domain.boundary_ids())
+        {
+          const auto  condition = m.boundary_conditions.all().find(id);
+          std::string text      = name + ": ";
+          if (m.has_fluid && condition != m.boundary_conditions.all().end())
+            text += in_words(condition->second) + ", ";
+          lines.push_back(text + (walls.count(name) ? "a wall for grains" : "open to grains"));
+        }
+      return lines;
+    }
+
+    /** Walls that are no boundaries, and those that move. */
+    std::vector<std::string> other_walls(const Model &m)
+    {
+      constexpr std::size_t    most = 20;
+      std::vector<std::string> lines;
+      std::size_t              n = 0;
+      for (const auto &wall : m.contacts.walls())
+        {
+          const bool moves    = wall.velocity[0] != 0. || wall.velocity[1] != 0. || wall.spin != 0.;
+          const bool boundary = m.domain.boundary_ids().count(wall.name) > 0;
+          if ((boundary && !moves) || ++n > most)
+            continue;
+          std::string text = wall.name + ": (" + number(wall.a[0]) + ", " + number(wall.a[1]) + ") -> (" +
+                             number(wall.b[0]) + ", " + number(wall.b[1]) + ") m";
+          if (moves)
+            text += ", moves at (" + number(wall.velocity[0]) + ", " + number(wall.velocity[1]) + ") m/s" +
+                    (wall.spin != 0. ? ", turns at " + number(wall.spin) + " rad/s" : "");
+          lines.push_back(text + (boundary ? "" : ", for grains only"));
+        }
+      if (n > most)
+        lines.push_back("and " + std::to_string(n - most) + " more");
+      return lines;
+    }
+  } // namespace
+
+
+  void report_scene(const Model &m, const Output &output, const double end_time, std::ostream &out)
+  {
+    const SceneNumbers s = find_scene_numbers(m, end_time); // collective
+    if (!m.speaks)
+      return;
+    const auto line = [&](const std::string &what, const std::string &text) {
+      out << "  " << what << std::string(what.size() < 12 ? 12 - what.size() : 1, ' ') << text << '\n';
     };
-    const double d = mesh::mean_diameter(m.grains);
+    const auto lines = [&](const std::string &what, const std::vector<std::string> &texts) {
+      for (std::size_t i = 0; i < texts.size(); ++i)
+        line(i == 0 ? what : "", texts[i]);
+    };
     line("grains",
-         std::to_string(m.grains.n()) + " discs, mean diameter " + number(d) + " m, fluid radius " +
-           number(m.grains.fluid_radius[0] / m.grains.radius[0]) + " of the contact radius");
-    if (!m.initial_bed.empty())
+         std::to_string(m.grains.n()) + " discs, mean diameter " + number(s.diameter) + " m, fluid radius " +
+           number(s.radius_factor) + " of the contact radius");
+    if (s.bed.solid > 0.)
       {
-        const double packing = grains::inner_packing_fraction(upright_grains(m));
+        const double inside = grains::inner_packing_fraction(upright_grains(m));
         line("bed",
-             number(m.initial_bed.bottom()) + " m to " + number(m.initial_bed.top()) + " m" +
-               (packing > 0. ? ", packing fraction " + number(packing) + " inside" : ""));
+             (m.initial_bed.empty()
+                ? std::string()
+                : number(m.initial_bed.bottom()) + " m to " + number(m.initial_bed.top()) + " m, ") +
+               "packing fraction " + number(s.bed.fraction()) +
+               (s.radius_factor < 1. ? " (" + number(s.bed.fluid_fraction()) + " for the fluid)" : "") +
+               (inside > 0. ? ", " + number(inside) + " inside" : ""));
       }
     if (m.has_fluid)
       {
@@ -54,30 +142,56 @@ namespace alluvium::run
              "volume-averaged Navier-Stokes, " + std::to_string(m.triangulation->n_global_active_cells()) + " cells, " +
                std::to_string(m.space.n_dofs()) + " unknowns" +
                (m.solver.discretisation.convection ? "" : "; without convection, as asked"));
-        const double tau = m.solver.properties.viscosity > 0. ? d * d / m.solver.properties.viscosity : 0.;
         line("coupling",
              std::to_string(m.coupling.report().n_pieces) + " pieces of grains, void fraction " +
                number(m.coupling.report().eps_min) + " to " + number(m.coupling.report().eps_max) + ", rho d^2/eta " +
-               number(tau * m.solver.properties.density) + " s");
-        const coupling::HomogeneousBed bed{
-          m.grains, m.solver.properties, coupling::inner_void_fraction(upright_grains(m))};
+               number(s.viscous_time) + " s");
         const coupling::DragRange range = m.coupling.drag_law().range();
         line("drag law",
              m.coupling.drag_law_name() + " (void fraction " + number(range.eps_min) + " to " + number(range.eps_max) +
                ", Reynolds number to " + number(range.re_max) + ")" +
-               (bed.eps < 1. ? "; homogeneous bed of void fraction " + number(bed.eps) + ": permeability " +
-                                 number(bed.permeability(m.coupling.drag_law())) +
-                                 " m^2, fluidised at a superficial velocity of " +
-                                 number(bed.fluidisation_velocity(m.coupling.drag_law(), m.gravity_size())) + " m/s" +
-                                 (range.contains(bed.eps, range.re_min) ? "" : "; it lies outside the law's range")
-                             : ""));
+               (s.eps < 1. ? "; bed of void fraction " + number(s.eps) + ": permeability " + number(s.permeability) +
+                               " m^2, fluidised at a superficial velocity of " + number(s.fluidisation_velocity) +
+                               " m/s" + (range.contains(s.eps, range.re_min) ? "" : "; it lies outside the law's range")
+                           : ""));
+        if (s.critical_gradient > 0.)
+          line("heave",
+               "critical gradient " + rounded(s.critical_gradient) +
+                 "; Terzaghi's, (s - 1)(1 - n) with s = " + rounded(s.density_ratio) +
+                 " and 1 - n = " + rounded(s.bed.fluid_fraction()) + ": " + rounded(s.terzaghi) +
+                 (std::abs(s.critical_gradient / s.terzaghi - 1.) < 1e-3
+                    ? ", the same"
+                    : ". They differ as the grains' mass follows the contact radius, so that the bed weighs as one "
+                      "packed " +
+                        rounded(s.bed.fraction()) +
+                        ", while the fluid sees 1 - n; with Grains/Mass follows = fluid radius they are the same"));
+        if (s.archimedes > 0.)
+          line("grain",
+               "Archimedes number " + rounded(s.archimedes) +
+                 (s.terminal_velocity > 0.
+                    ? "; alone it sinks at " + rounded(s.terminal_velocity) + " m/s: Reynolds number " +
+                        rounded(s.reynolds) + ", Stokes number tau_p w/d " + rounded(s.stokes)
+                    : "") +
+                 "; Shields number 1 is a shear stress of " + rounded(s.shields_stress) + " Pa");
+        line("time step",
+             number(m.time_step) + " s: " + rounded(m.time_step / s.relaxation_time) + " tau_p (" +
+               rounded(s.relaxation_time) + " s" + (s.eps < 1. ? ", in the bed)" : ")") +
+               (s.courant > 0.
+                  ? "; Courant number " + rounded(s.courant) + " at " + rounded(s.velocity) + " m/s, " + s.velocity_of
+                  : ""));
+        line("head", output.where_head());
       }
     else
       line("fluid", "left out (Fluid/Model = none): no mesh, no matrices");
+    lines("boundaries", boundaries(m));
+    lines("walls", other_walls(m));
     line("contacts",
          m.grains_move ? std::to_string(m.contacts.walls().size()) + " walls; " + m.contacts.sharing(m.grains.n())
                        : "left out: all grains are fixed");
-    line("observers", observers);
+    line("observers", output.observers());
+    line("costs",
+         rounded(s.n_steps) + " steps; roughly " + rounded(s.memory / 1e9) + " GB of memory and " +
+           duration_in_words(s.time) + " on an idle machine, if grains move all the time");
     out << std::flush;
   }
 } // namespace alluvium::run

@@ -181,7 +181,12 @@ namespace alluvium::run
         m.touched.assign(m.grains.n(), 0);
         check_scene_size(m);
       }
-    const double largest = 2. * *std::max_element(m.grains.radius.begin(), m.grains.radius.end());
+    double largest = 0.;
+    for (const double r : m.grains.radius)
+      largest = std::max(largest, 2. * r);
+    for (const auto &name : m.domain.open_to_grains_names())
+      m.leavers.by_side[name];
+    m.store.let_leave(!m.leavers.by_side.empty());
     if (m.has_fluid)
       set_up_fluid(m, from);
     m.store.initialize(m.grains, lower, upper, m.contacts.settings().skin * largest);

@@ -1,5 +1,5 @@
 #include <alluvium/grains/contact_overlaps.h>
-#include <alluvium/mesh/bed_faces.h>
+#include <alluvium/mesh/bed_packing.h>
 #include <alluvium/scene/grain_setup.h>
 
 #include <deal.II/base/mpi.h>
@@ -104,7 +104,7 @@ namespace alluvium::scene
       "Fluid packing fraction",
       packing,
       "If above 0, choose the fluid radius factor such that the bed, as deposited, has this packing fraction for the "
-      "fluid: the grains' area over domain width times mean bed height.",
+      "fluid: the area of the bed's grains over that between its bottom and its top, as wide as the bed is.",
       Patterns::Double(0., 0.9));
     prm.add_parameter("Mass follows",
                       mass_follows,
@@ -316,15 +316,11 @@ namespace alluvium::scene
 
     if (packing == 0.)
       return factor;
-    const double height =
-      mesh::find_bed_faces(grains, domain.lower()[across], domain.upper()[across], upright).mean_height();
-    double area = 0.;
-    for (const double r : grains.radius)
-      area += dealii::numbers::PI * r * r;
-    check_user(height > 0., "Grains/Fluid packing fraction: the grains form no bed whose packing could be chosen.");
-    const double result = std::sqrt(packing * height * (domain.upper()[across] - domain.lower()[across]) / area);
+    const mesh::BedPacking bed = mesh::measure_bed(grains, domain.lower()[across], domain.upper()[across], upright);
+    check_user(bed.solid > 0., "Grains/Fluid packing fraction: the grains form no bed whose packing could be chosen.");
+    const double result = std::sqrt(packing * bed.height * bed.width / bed.solid);
     check_user(result <= 1.,
-               "Grains/Fluid packing fraction: the bed's own is only " + number(packing / (result * result)) +
+               "Grains/Fluid packing fraction: the bed's own is only " + number(bed.fraction()) +
                  ", so that it cannot be " + number(packing) + " for the fluid.");
     return result;
   }

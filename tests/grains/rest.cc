@@ -166,3 +166,52 @@ TEST(Rest, WhatTouchesNothingDoesNotSleep)
   EXPECT_NEAR(grains.x[1] / (u * 200 * dt), 1., 1e-9);
   EXPECT_EQ(grains.fcx[1], 0.);
 }
+
+// Nor do two that touch each other only, or one that creeps down a wall as fast as a thick fluid lets it.
+TEST(Rest, WhatSinksTogetherDoesNotSleep)
+{
+  const double   u = 1e-6, drag = 1e3; // [m/s], [N s/m^2]
+  GrainArrays    grains;
+  GrainLoads     loads;
+  ContactStepper stepper;
+  ContactReport  report;
+  stepper.set_walls({{{{-1., 0.}}, {{1., 0.}}, {}, "floor"}});
+  grains.resize(2);
+  grains.id     = {0, 1};
+  grains.y      = {10. * r, 12. * r};
+  grains.radius = {r, r};
+  grains.mass   = {1., 1.};
+  grains.vy     = {-u, -u};
+  loads.reset(2);
+  loads.fy   = {g, -g - 2. * drag * u}; // the upper one presses on the lower one
+  loads.drag = {drag, drag};
+  for (unsigned int k = 0; k < 200; ++k)
+    report = stepper.advance(grains, loads, dt, {{0., -g}});
+  EXPECT_FALSE(report.at_rest);
+  EXPECT_NEAR((10. * r - grains.y[0]) / (u * 200 * dt), 1., 1e-3);
+}
+
+TEST(Rest, WhatCreepsDownASlopeDoesNotSleep)
+{
+  const double   u = 1e-6, slope = 0.5, drag = g * std::sin(slope) / u;
+  GrainArrays    grains;
+  GrainLoads     loads;
+  ContactStepper stepper;
+  ContactReport  report;
+  stepper.settings().wall_friction = 0.;
+  stepper.set_walls({{{{-1., 0.}}, {{1., 0.}}, {}, "slope"}});
+  grains.resize(1);
+  grains.id     = {0};
+  grains.y      = {r};
+  grains.radius = {r};
+  grains.mass   = {1.};
+  grains.vx     = {u};
+  loads.reset(1);
+  loads.fx   = {g * std::sin(slope)};
+  loads.fy   = {-g * std::cos(slope)};
+  loads.drag = {drag};
+  for (unsigned int k = 0; k < 200; ++k)
+    report = stepper.advance(grains, loads, dt, {{g * std::sin(slope), -g * std::cos(slope)}});
+  EXPECT_FALSE(report.at_rest);
+  EXPECT_NEAR(grains.x[0] / (u * 200 * dt), 1., 1e-3);
+}

@@ -44,6 +44,9 @@ namespace alluvium::coupling
     /** Check what the parameter handler's patterns cannot. */
     void parse_parameters();
 
+    /** Grains have been taken out of the arrays: @p keep says which stay. Before the next step(). */
+    void remove_grains(const std::vector<std::uint8_t> &keep);
+
     /** The space has been rebuilt. */
     void reinit();
 

@@ -6,7 +6,9 @@
 namespace alluvium::fluid
 {
   struct FluidProperties;
-}
+  template <int dim>
+  class FluidSpace;
+} // namespace alluvium::fluid
 
 namespace alluvium::coupling
 {
@@ -27,10 +29,26 @@ namespace alluvium::coupling
      */
     double fluidisation_velocity(const DragLaw &law, const double g) const;
 
+    /** Mass of the grains over their drag in creeping flow, at this void fraction [s]. */
+    double relaxation_time(const DragLaw &law) const;
+
   private:
     /** Sum of V gamma over the grains at interstitial slip @p u [N s/m^2]. */
     double resistance(const DragLaw &law, const double u) const;
   };
+
+  class Coupling;
+
+  /**
+   * Permeability [m^2] of the bed of @p area [m^2] as the run sees it, with the void fraction at every piece of a
+   * grain: K of U = K |grad p| / eta, where the gradient is the mean over the bed in creeping flow of superficial
+   * velocity U through it. For flow through layers one after the other. Collective.
+   */
+  double permeability_of_pieces(const Coupling               &coupling,
+                                const fluid::FluidSpace<2>   &space,
+                                const fluid::FluidProperties &fluid,
+                                const grains::GrainArrays    &grains,
+                                double                        area);
 
   /** Void fraction inside a bed as the fluid sees it; 1 where there is no inside. See grains/packing.h. */
   double inner_void_fraction(const grains::GrainArrays &grains);

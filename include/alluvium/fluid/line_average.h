@@ -17,4 +17,11 @@ namespace alluvium::fluid
                       const double                                                                   level,
                       const std::function<double(const std::array<double, dim> &u, const double p)> &function,
                       const unsigned int                                                             axis = 1);
+
+  /** Mean of @p function of velocity [m/s] and reduced pressure [Pa] over boundary @p id. Collective. */
+  template <int dim>
+  double boundary_average(const FluidSpace<dim>                                                         &space,
+                          const BlockVector                                                             &solution,
+                          const dealii::types::boundary_id                                               id,
+                          const std::function<double(const std::array<double, dim> &u, const double p)> &function);
 } // namespace alluvium::fluid

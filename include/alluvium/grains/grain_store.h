@@ -37,13 +37,19 @@ namespace alluvium::grains
 
     /**
      * Build the grid over the box from @p lower to @p upper [m], wider by one cell on all sides, and put @p grains in,
-     * which are the same on all ranks with ids 0, 1, ..., n-1. @p skin [m] is that of the contact search. Replaces what
+     * which are the same on all ranks, sorted by id. @p skin [m] is that of the contact search. Replaces what
      * was there. Collective. Throws UserError for a grain outside the grid.
      */
     void initialize(const GrainArrays           &grains,
                     const std::array<double, 2> &lower,
                     const std::array<double, 2> &upper,
                     double                       skin);
+
+    /** Whether grains may be outside the grid: they wait in its nearest cell until they are taken out. */
+    void let_leave(bool yes);
+
+    /** Go on with other @p grains on the same grid. Collective. */
+    void replace(const GrainArrays &grains);
 
     std::size_t n_grains() const;       // on all ranks
     std::size_t n_local_grains() const; // on this one

@@ -85,6 +85,18 @@ namespace alluvium::mesh
      */
     const std::vector<grains::WallSegment> &walls() const { return wall_segments; }
 
+    /** All straight sides of the boundary, those that are open to grains included. */
+    const std::vector<grains::WallSegment> &sides() const { return all_sides; }
+
+    /** Names of the boundaries that are open to grains. */
+    std::vector<std::string> open_to_grains_names() const;
+
+    /**
+     * Whether a grain with its centre at @p point has left the domain, where boundaries are open to grains: the name of
+     * the nearest of these; "" if it is inside, or nowhere could leave.
+     */
+    std::string left_through(const std::array<double, 2> &point) const;
+
     /** The directions in which the rectangle repeats itself; its sides there are neither boundaries nor walls. */
     grains::Periodicity periodicity() const;
 
@@ -94,6 +106,7 @@ namespace alluvium::mesh
   private:
     void read_mesh_file(const std::string &directory);
     void name_parts();
+    void name_in_sides(const geometry::BoundaryPart &part);
     void open_part(const geometry::BoundaryPart &part);
     void make_rectangle(dealii::Triangulation<dim, dim> &triangulation, double cell_size) const;
 
@@ -105,7 +118,7 @@ namespace alluvium::mesh
     std::string                                       mesh_text, mesh_path;
     bool                                              triangles = false;
     std::map<std::string, dealii::types::boundary_id> ids;
-    std::vector<grains::WallSegment>                  wall_segments;
+    std::vector<grains::WallSegment>                  wall_segments, all_sides;
     std::vector<geometry::BoundaryPart>               named_parts;
   };
 } // namespace alluvium::mesh

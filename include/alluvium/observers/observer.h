@@ -2,6 +2,7 @@
 
 #include <alluvium/coupling/coupling.h>
 #include <alluvium/grains/contact_stepper.h>
+#include <alluvium/grains/leavers.h>
 #include <alluvium/mesh/bed_faces.h>
 #include <alluvium/observers/mesh_change.h>
 #include <alluvium/observers/statistics.h>
@@ -10,7 +11,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <limits>
 #include <string>
+#include <vector>
 
 namespace alluvium::observers
 {
@@ -22,7 +25,13 @@ namespace alluvium::observers
     const fluid::BoundaryConditions<2> &boundary_conditions;
     coupling::Coupling                 &coupling;
 
-    double head = 0.; // differential head between the bottom and the top that the bed had at t = 0 (16) [m]
+    /** Differential head [m], NaN where it has no meaning in this scene; see Output/Head between. */
+    double head = std::numeric_limits<double>::quiet_NaN();
+
+    /** Between the bottom and the top that the bed had at t = 0 (16)? Else between two boundaries, or nowhere. */
+    bool head_of_bed = false;
+    /** Does what flows from one open boundary to another cross the whole bed from below or from above? */
+    bool crosses_bed = false;
   };
 
   /** What an observer sees after a step. The same on all ranks, apart from the fluid's distributed fields. */
@@ -33,6 +42,7 @@ namespace alluvium::observers
     const grains::GrainArrays    &grains;
     const mesh::BedFaces         &initial_bed;
     double                        left, right; // of the domain, across gravity's axis [m]
+    double                        bottom, top; // of the same in y [m]
     std::array<double, 2>         gravity;     // [m/s^2]
     const grains::ContactReport  *contacts;    // null where grains do not move, and at t = 0
     const FluidView              *fluid;       // null in dry scenes
@@ -40,6 +50,9 @@ namespace alluvium::observers
     std::string                   folder;      // where output goes
     MPI_Comm                      communicator;
     const MeshChange             *mesh_change; // the latest, if watches_mesh_changes(); null before the first
+    const grains::Leavers        &leavers;
+
+    const std::vector<grains::WallSegment> &walls; // of the grains
   };
 
   /**
@@ -52,7 +65,10 @@ namespace alluvium::observers
     virtual ~Observer() = default;
     virtual void add_parameters(dealii::ParameterHandler &) {}
 
-    /** Whether there is anything to measure in this scene; the others are never called again. */
+    /**
+     * Whether there is anything to measure in this scene; the others are never called again. Throws UserError for a
+     * parameter that does not fit the scene, such as the name of a wall that it has not.
+     */
     virtual bool applies(const Snapshot &) const { return true; }
 
     virtual void add_columns(const Snapshot &, Statistics &) {}

@@ -60,6 +60,7 @@ namespace alluvium::run
     bool   stop                   = true;
     double largest_penetration    = 0.1;
     double unexplained            = 0.; // [J/m]
+    double smallest_bound         = 0.; // of that, as there have been grains [J/m]
     double largest_share_of_bound = 0.;
     bool   calm                   = true;
   };

@@ -3,6 +3,7 @@
 #include <alluvium/fluid/fluid_space.h>
 #include <alluvium/grains/contact_archive.h>
 #include <alluvium/grains/grain_arrays.h>
+#include <alluvium/grains/leavers.h>
 
 #include <nlohmann/json.hpp>
 
@@ -44,6 +45,7 @@ namespace alluvium::run
     grains::GrainArrays           grains;
     std::vector<std::uint8_t>     touched;
     grains::ContactArchive        contacts;
+    grains::Leavers               leavers;
     std::map<std::string, double> counts;
     nlohmann::ordered_json        of_output;
   };

@@ -6,6 +6,7 @@
 #include <alluvium/fluid/vans_solver.h>
 #include <alluvium/grains/contact_stepper.h>
 #include <alluvium/grains/grain_store.h>
+#include <alluvium/grains/leavers.h>
 #include <alluvium/mesh/adaptivity.h>
 #include <alluvium/mesh/bed_faces.h>
 #include <alluvium/mesh/domain.h>
@@ -85,6 +86,7 @@ namespace alluvium::run
     grains::GrainLoads            loads;
     std::vector<std::uint8_t>     touched; // by others in the last step
     grains::ContactReport         contact_report;
+    grains::Leavers               leavers;
     mesh::BedFaces                initial_bed;
     double                        time    = 0.; // [s]
     unsigned int                  n_steps = 0;

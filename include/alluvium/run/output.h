@@ -35,6 +35,9 @@ namespace alluvium::run
     /** Choose the observers that find something to measure in the scene. After set_up(). */
     void choose_observers();
 
+    /** Where the differential head is taken: one line. */
+    std::string where_head() const;
+
     /** Which observers work, and which were left out: one line. */
     std::string observers() const;
 
@@ -71,6 +74,7 @@ namespace alluvium::run
 
   private:
     observers::Snapshot snapshot() const;
+    void                choose_head();
     double              head() const;
     void                observe();
     void                write_row();
@@ -82,11 +86,12 @@ namespace alluvium::run
     observers::OutputFolder           output_folder;
     PluginChoice<observers::Observer> choice;
     double                            picture_interval = 0.05, row_interval = 0.01; // [s]
-    std::string                       format    = "vtu";
+    std::string                       format    = "vtu", head_between;
     unsigned int                      precision = 10;
 
     std::vector<observers::Observer *>      observing;
     std::unique_ptr<observers::FluidView>   fluid_view;
+    std::vector<dealii::types::boundary_id> head_ids; // of two boundaries, if the head is between them
     std::unique_ptr<observers::Statistics>  statistics;
     std::unique_ptr<observers::Summary>     summary;
     std::unique_ptr<observers::FieldSeries> fluid_pictures, grain_pictures;

@@ -45,6 +45,9 @@ namespace alluvium::run
     void before_mesh_change() { good.forget(); }
     void after_mesh_change();
 
+    /** Grains have been taken out before a step. Collective. */
+    void after_removal();
+
     /** Throw a Divergence if the step that the model has taken cannot be believed. Collective. */
     void judge();
 

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <iosfwd>
-#include <string>
 
 namespace alluvium::run
 {
   struct Model;
+  class Output;
 
-  /** What the scene is, room by room, and what it leaves out; @p observers is the line on those. */
-  void report_scene(const Model &model, const std::string &observers, std::ostream &out);
+  /**
+   * What the scene is, room by room, what it leaves out, and what to expect of it; the rank that speaks writes it to
+   * @p out. @p end_time of the run [s]. Collective.
+   */
+  void report_scene(const Model &model, const Output &output, double end_time, std::ostream &out);
 } // namespace alluvium::run

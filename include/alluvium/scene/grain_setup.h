@@ -36,6 +36,7 @@ namespace alluvium::scene
     void write_nothing() { may_write = false; }
 
     bool fixed() const { return fixed_grains; }
+    bool mass_follows_fluid_radius() const { return mass_follows == "fluid radius"; }
     /** Fluid radius over contact radius of the grains made last. */
     double radius_factor() const { return last_factor; }
 

@@ -1,0 +1,83 @@
+#include <alluvium/run/leavers.h>
+#include <alluvium/run/model.h>
+#include <alluvium/utilities/user_error.h>
+
+#include <deal.II/grid/tria.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace alluvium::run
+{
+  namespace
+  {
+    template <typename T>
+    void keep_some(std::vector<T> &values, const std::vector<std::uint8_t> &keep)
+    {
+      if (values.size() != keep.size())
+        return;
+      std::size_t n = 0;
+      for (std::size_t i = 0; i < keep.size(); ++i)
+        if (keep[i])
+          values[n++] = values[i];
+      values.resize(n);
+    }
+
+    std::vector<std::string> sides_left_through(const Model &m)
+    {
+      std::vector<std::string> result(m.grains.n());
+      if (!m.domain.open_to_grains_names().empty())
+        for (std::size_t i = 0; i < m.grains.n(); ++i)
+          result[i] = m.domain.left_through({{m.grains.x[i], m.grains.y[i]}});
+      return result;
+    }
+  } // namespace
+
+
+  void count_leavers(Model &m)
+  {
+    const auto open = m.domain.open_to_grains_names();
+    for (const auto &name : open)
+      m.leavers.by_side[name];
+    const auto  sides = sides_left_through(m);
+    const auto &g     = m.grains;
+    for (std::size_t i = 0; i < g.n(); ++i)
+      if (!sides[i].empty())
+        {
+          if (std::find(open.begin(), open.end(), sides[i]) == open.end())
+            {
+              std::ostringstream text;
+              text << "Grain " << g.id[i] << " has gone through the wall '" << sides[i] << "': it is at (" << g.x[i]
+                   << ", " << g.y[i] << ") m. Try a smaller Time/Time step.";
+              throw UserError(text.str());
+            }
+          grains::Departure &d = m.leavers.by_side[sides[i]];
+          d.n += 1;
+          d.mass += g.mass[i];
+          d.momentum[0] += g.mass[i] * g.vx[i];
+          d.momentum[1] += g.mass[i] * g.vy[i];
+        }
+  }
+
+
+  bool remove_leavers(Model &m)
+  {
+    const auto                sides = sides_left_through(m);
+    std::vector<std::uint8_t> keep(sides.size());
+    std::transform(sides.begin(), sides.end(), keep.begin(), [](const auto &name) { return name.empty(); });
+    if (std::all_of(keep.begin(), keep.end(), [](const auto k) { return k != 0; }))
+      return false;
+    auto &g = m.grains;
+    keep_some(g.id, keep);
+    for (auto *values :
+         {&g.x, &g.y, &g.radius, &g.fluid_radius, &g.mass, &g.vx, &g.vy, &g.omega, &g.fcx, &g.fcy, &g.x0, &g.y0})
+      keep_some(*values, keep);
+    keep_some(m.touched, keep);
+    m.loads.reset(g.n());
+    m.contacts.set_archive(m.contacts.archive()); // to be searched anew
+    m.store.replace(g);
+    if (m.has_fluid)
+      m.coupling.remove_grains(keep);
+    return true;
+  }
+} // namespace alluvium::run

@@ -1,0 +1,47 @@
+#!/bin/bash
+# What --check says of a scene, against formulas, and its permeability against the run's own.
+. "$SCENES/functions"
+scene_from bed <<'END'
+subsection Time
+  set End time = 0.0205
+end
+subsection Output
+  set Observers = flux, head
+end
+END
+number() { # REGEX with one group
+  /usr/bin/python3 -c 'import re, sys; print(re.search(sys.argv[1], open("screen-output").read())[1])' "$1"
+}
+for mass in 'contact radius' 'fluid radius'; do
+  must_run 1 --check bed.prm --set "Grains/Mass follows=$mass"
+  /usr/bin/python3 - "$mass" "$(number 'critical gradient ([0-9.e-]+)')" "$(number "1 - n = [0-9.]+: ([0-9]+[.][0-9]+)")" \
+    "$(number 'Archimedes number ([0-9.e-]+)')" "$(number 'stress of ([0-9.e-]+) Pa')" "$(number 'packing fraction ([0-9.e-]+) ')" <<'END' || fail "$mass"
+import sys
+mass, critical, terzaghi, archimedes, shields, contact = sys.argv[1], *map(float, sys.argv[2:])
+s, phi = 2.63, 0.52
+expected = s * (contact if mass == "contact radius" else phi) - phi
+assert abs(critical / expected - 1) < 0.01, (critical, expected)
+assert abs(terzaghi / ((s - 1) * phi) - 1) < 0.01, terzaghi
+# of the mean grain as the fluid sees it
+d, rho_p = 2.2e-4 * (phi / contact) ** 0.5, 2630 * (contact / phi if mass == "contact radius" else 1)
+assert abs(shields / ((rho_p - 1000) * 9.81 * d) - 1) < 0.03, shields
+assert abs(archimedes / ((rho_p - 1000) * 1000 * 9.81 * d ** 3 / 1e-6) - 1) < 0.06, archimedes
+END
+done
+grep -q 'the same' screen-output || fail "with mass by fluid radius the gradients are the same"
+must_run 1 --check bed.prm
+grep -q 'They differ as' screen-output || fail "it does not say why the gradients differ"
+for text in 'left: slip, a wall for grains' 'bottom: pressure rho\*g\*H.*, a wall for grains' 'tau_p' 'Courant number' 'Stokes number' '21 steps; roughly .* GB of memory'; do
+  grep -q -- "$text" screen-output || fail "missing: $text"
+done
+
+# Darcy's law of the run
+must_run 1 bed.prm --set 'Grains/Fixed=true' --set 'Time/Time step=0.01' --set 'Time/End time=0.2' --set 'Boundary conditions/Pressure=top: 0; bottom: rho*g*H + 0.05*rho*g*L'
+/usr/bin/python3 - "$(number 'permeability ([0-9.e-]+) m')" "$(number 'bed +([0-9.e-]+) m to')" "$(number 'bed +[0-9.e-]+ m to ([0-9.e-]+) m')" <<'END' || fail "the permeability is not the run's"
+import csv, sys
+permeability, bottom, top = map(float, sys.argv[1:])
+row = list(csv.DictReader(open("output/statistics.csv")))[-1]
+measured = float(row["flux_top_m2_per_s"]) / 0.004 * 1e-3 / (1000 * 9.81 * float(row["differential_head_m"]) / (top - bottom))
+print("permeability said", permeability, "measured", measured)
+assert abs(permeability / measured - 1) < 0.07, (permeability, measured)
+END
