@@ -27,6 +27,14 @@ namespace alluvium::grains
       return std::abs(p[0] - q[0]) <= tolerance && std::abs(p[1] - q[1]) <= tolerance;
     }
 
+    double length_of(const WallSegment &w)
+    {
+      return std::hypot(w.b[0] - w.a[0], w.b[1] - w.a[1]);
+    }
+
+    // of the longer of two segments: points nearer to each other are the same
+    constexpr double same_point_tolerance = 1e-9;
+
     double distance_to(const WallSegment &w, const double x, const double y)
     {
       const double t  = project(w, x, y);
@@ -121,7 +129,7 @@ namespace alluvium::grains
   {
     walls  = std::move(segments);
     moving = largest_speed() > 0.;
-    find_shared_ends();
+    find_meetings();
   }
 
   std::vector<double> WallGeometry::positions() const
@@ -145,7 +153,7 @@ namespace alluvium::grains
         walls[k].b            = {{p[2], p[3]}};
         walls[k].centre       = {{p[4], p[5]}};
       }
-    find_shared_ends();
+    find_meetings();
   }
 
   double WallGeometry::largest_speed() const
@@ -160,23 +168,29 @@ namespace alluvium::grains
     return speed;
   }
 
-  void WallGeometry::find_shared_ends()
+  void WallGeometry::find_meetings()
   {
-    sharing.assign(walls.size(), {});
+    meeting.assign(walls.size(), {});
     for (std::size_t k = 0; k < walls.size(); ++k)
-      for (std::size_t m = 0; m < walls.size(); ++m)
-        if (m != k)
-          {
-            const double tolerance =
-              1e-9 * std::max(std::hypot(walls[k].b[0] - walls[k].a[0], walls[k].b[1] - walls[k].a[1]),
-                              std::hypot(walls[m].b[0] - walls[m].a[0], walls[m].b[1] - walls[m].a[1]));
-            for (int end = 0; end < 2; ++end)
-              {
-                const auto &p = end == 0 ? walls[k].a : walls[k].b;
-                if (same_point(p, walls[m].a, tolerance) || same_point(p, walls[m].b, tolerance))
-                  sharing[k][end].push_back(m);
-              }
-          }
+      for (std::size_t m = k + 1; m < walls.size(); ++m)
+        {
+          const WallSegment &w = walls[k], &other = walls[m];
+          const double       tolerance = same_point_tolerance * std::max(length_of(w), length_of(other));
+          bool               apart     = false;
+          for (unsigned int d = 0; d < 2; ++d)
+            apart = apart || std::min(w.a[d], w.b[d]) - std::max(other.a[d], other.b[d]) > tolerance ||
+                    std::min(other.a[d], other.b[d]) - std::max(w.a[d], w.b[d]) > tolerance;
+          if (apart)
+            continue;
+          const auto lies_on = [&](const std::array<double, 2> &p, const WallSegment &segment) {
+            return distance_to(segment, p[0], p[1]) <= tolerance;
+          };
+          if (lies_on(w.a, other) || lies_on(w.b, other) || lies_on(other.a, w) || lies_on(other.b, w))
+            {
+              meeting[k].push_back(m);
+              meeting[m].push_back(k);
+            }
+        }
   }
 
   void WallGeometry::move(const double dt)
@@ -210,29 +224,30 @@ namespace alluvium::grains
         moved = moved || dx != 0. || dy != 0.;
       }
     if (moved)
-      find_shared_ends();
+      find_meetings();
   }
 
   bool
   WallGeometry::touch(const std::size_t k, const double x, const double y, const double r, ContactPoint &point) const
   {
-    const WallSegment &w = walls[k];
-    const double       t = project(w, x, y);
-    if (t == 0. || t == 1.)
+    const WallSegment &w      = walls[k];
+    const double       t      = project(w, x, y);
+    const double       near_x = w.a[0] + t * (w.b[0] - w.a[0]), near_y = w.a[1] + t * (w.b[1] - w.a[1]);
+    for (const std::uint32_t m : meeting[k])
       {
-        const std::array<double, 2> &corner = t == 0. ? w.a : w.b;
-        for (const std::uint32_t m : sharing[k][t == 0. ? 0 : 1])
-          {
-            const double s        = project(walls[m], x, y);
-            const bool   its_end  = s == 0. || s == 1.;
-            const auto  &its_near = s == 0. ? walls[m].a : walls[m].b;
-            // The other segment has a nearer point, or the same one and comes first.
-            if (!its_end || m < k ||
-                !same_point(its_near, corner, 1e-9 * (std::abs(w.b[0] - w.a[0]) + std::abs(w.b[1] - w.a[1]))))
-              return false;
-          }
+        const WallSegment &other     = walls[m];
+        const double       tolerance = same_point_tolerance * std::max(length_of(w), length_of(other));
+        if (distance_to(other, near_x, near_y) > tolerance)
+          continue; // what this segment has nearest is no point of the other one
+        const double s = project(other, x, y);
+        // The other segment has a nearer point, or the same one and comes first.
+        if (m < k ||
+            !same_point({{near_x, near_y}},
+                        {{other.a[0] + s * (other.b[0] - other.a[0]), other.a[1] + s * (other.b[1] - other.a[1])}},
+                        tolerance))
+          return false;
       }
-    const double dx = w.a[0] + t * (w.b[0] - w.a[0]) - x, dy = w.a[1] + t * (w.b[1] - w.a[1]) - y;
+    const double dx = near_x - x, dy = near_y - y;
     const double distance = std::sqrt(dx * dx + dy * dy);
     if (distance > 0.)
       point = {dx / distance, dy / distance, distance - r};

@@ -277,23 +277,7 @@ namespace alluvium::mesh
     if (open.empty())
       return "";
     const double x = point[0], y = point[1];
-    bool         inside;
-    if (is_rectangle())
-      {
-        const auto box = periodicity();
-        inside         = true;
-        for (unsigned int d = 0; d < 2; ++d)
-          inside = inside && (box.length[d] > 0. || (point[d] >= lower_corner[d] && point[d] <= upper_corner[d]));
-      }
-    else
-      {
-        // a ray to the right crosses the boundary an odd number of times
-        inside = false;
-        for (const auto &s : all_sides)
-          if ((s.a[1] > y) != (s.b[1] > y) && x < s.a[0] + (y - s.a[1]) / (s.b[1] - s.a[1]) * (s.b[0] - s.a[0]))
-            inside = !inside;
-      }
-    if (inside)
+    if (contains(x, y))
       return "";
     std::string name;
     double      nearest = std::numeric_limits<double>::max();
@@ -311,6 +295,31 @@ namespace alluvium::mesh
               }
           }
     return name;
+  }
+
+
+  template <int dim>
+  bool Domain<dim>::contains(const double x, const double y) const
+  {
+    const double tolerance = 1e-12 * lower_corner.distance(upper_corner);
+    if (is_rectangle())
+      {
+        const auto box = periodicity();
+        return (box.length[0] > 0. || (x >= lower_corner[0] && x <= upper_corner[0])) &&
+               (box.length[1] > 0. || (y >= lower_corner[1] && y <= upper_corner[1]));
+      }
+    bool inside = false;
+    for (const grains::WallSegment &side : all_sides)
+      {
+        const double ex = side.b[0] - side.a[0], ey = side.b[1] - side.a[1];
+        const double t = std::clamp(((x - side.a[0]) * ex + (y - side.a[1]) * ey) / (ex * ex + ey * ey), 0., 1.);
+        if (std::hypot(side.a[0] + t * ex - x, side.a[1] + t * ey - y) <= tolerance)
+          return true;
+        // a ray to the right crosses the boundary an odd number of times; both faces of a crack count
+        if ((side.a[1] > y) != (side.b[1] > y) && side.a[0] + (y - side.a[1]) / ey * ex > x)
+          inside = !inside;
+      }
+    return inside;
   }
 
 

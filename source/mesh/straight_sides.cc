@@ -41,7 +41,9 @@ namespace alluvium::mesh
                 const Tensor<1, dim> step = vertex[far] - vertex[end];
                 // a polygonal arc has corners of far more than 1e-9
                 const Tensor<1, dim> across = step - (step * direction) / direction.norm_square() * direction;
-                if (across.norm() > 1e-9 * step.norm())
+                // the tip of a crack, whose other face leads back
+                const Tensor<1, dim> so_far = vertex[end] - vertex[ends[&end == &ends[0] ? 1 : 0]];
+                if (across.norm() > 1e-9 * step.norm() || step * so_far < 0.)
                   break;
                 used[next] = true;
                 end        = far;

@@ -75,6 +75,26 @@ namespace alluvium::scene
       return true;
     }
 
+    /** Whether a part of @p wall is in the domain's bounding box, or on its sides. */
+    bool reaches_into(const mesh::Domain<2> &domain, const grains::WallSegment &wall)
+    {
+      double first = 0., last = 1.; // the part of the wall between both pairs of sides
+      for (unsigned int d = 0; d < 2; ++d)
+        {
+          const double tolerance = 1e-9 * (domain.upper()[d] - domain.lower()[d]);
+          const double low = domain.lower()[d] - tolerance, high = domain.upper()[d] + tolerance;
+          const double a = wall.a[d], e = wall.b[d] - wall.a[d];
+          if (e == 0. && (a < low || a > high))
+            return false;
+          if (e != 0.)
+            {
+              first = std::max(first, std::min((low - a) / e, (high - a) / e));
+              last  = std::min(last, std::max((low - a) / e, (high - a) / e));
+            }
+        }
+      return first <= last;
+    }
+
     /** Whether walls of this name move along themselves only. */
     bool
     is_belt(const std::vector<grains::WallSegment> &walls, const std::string &name, const std::vector<double> &motion)
@@ -152,12 +172,28 @@ namespace alluvium::scene
                          colon == std::string::npos ? "extra wall " + std::to_string(extra.size() + 1)
                                                     : Utilities::trim(item.substr(0, colon))});
       }
+    for (const grains::WallSegment &wall : extra)
+      check_user(moves(wall.name) || reaches_into(domain, wall),
+                 "Grains/Extra walls: '" + wall.name + "' from (" + number(wall.a[0]) + ", " + number(wall.a[1]) +
+                   ") to (" + number(wall.b[0]) + ", " + number(wall.b[1]) +
+                   ") m is outside the domain, which reaches from (" + number(domain.lower()[0]) + ", " +
+                   number(domain.lower()[1]) + ") to (" + number(domain.upper()[0]) + ", " + number(domain.upper()[1]) +
+                   ") m. Lengths are in metres.");
     // Positions are kept in the box: its own walls end where it does, only what stands in it shows again beside it.
     std::vector<grains::WallSegment> result = domain.walls();
     for (const auto &wall : grains::with_images(extra, domain.periodicity()))
       result.push_back(wall);
     move_walls(result, domain.periodicity());
     return result;
+  }
+
+
+  bool GrainSetup::moves(const std::string &name) const
+  {
+    const auto items = Utilities::split_string_list(wall_motion, ';');
+    return std::any_of(items.begin(), items.end(), [&](const std::string &item) {
+      return Utilities::trim(item.substr(0, item.find(':'))) == name;
+    });
   }
 
 
@@ -292,6 +328,9 @@ namespace alluvium::scene
                        ") m is outside the domain, which reaches from (" + number(domain.lower()[0]) + ", " +
                        number(domain.lower()[1]) + ") to (" + number(domain.upper()[0]) + ", " +
                        number(domain.upper()[1]) + ") m.");
+        check_user(domain.contains(s[0], s[1]),
+                   "Grains: grain " + std::to_string(i) + " at (" + number(s[0]) + ", " + number(s[1]) +
+                     ") m is outside the domain: in an obstacle, or beyond a boundary of the mesh.");
       }
     grains::check_overlaps(grains,
                            walls,

@@ -343,6 +343,43 @@ TEST(Contacts, CornersCountOnce)
   EXPECT_NEAR(s.report.wall_force["left"][1] / -s.weight(), 1., 1e-10);
 }
 
+TEST(Contacts, WallsThatLieOnOneAnotherCountOnce)
+{
+  WallGeometry walls;
+  const auto   count = [&](const double x, const double y) {
+    int          n = 0;
+    ContactPoint p;
+    for (std::size_t k = 0; k < walls.segments().size(); ++k)
+      n += walls.touch(k, x, y, 0.1, p) && p.gap < 0.01;
+    return n;
+  };
+  const auto at = [](const double ax, const double ay, const double bx, const double by) {
+    return WallSegment{{{ax, ay}}, {{bx, by}}, {{0., 0.}}, "w"};
+  };
+  // both faces of a crack
+  walls.set({at(0., 0., 1., 0.), at(1., 0., 0., 0.)});
+  for (const double x : {-0.05, 0., 0.5, 1., 1.05})
+    for (const double y : {-0.1, -0.05, 0.05, 0.1})
+      EXPECT_EQ(count(x, y), std::abs(y) < 0.1 || (x >= 0. && x <= 1.)) << x << ' ' << y;
+  // a part in common
+  walls.set({at(0., 0., 1., 0.), at(0.6, 0., 2., 0.)});
+  for (const double x : {0.1, 0.6, 0.8, 1., 1.5, 2.})
+    EXPECT_EQ(count(x, 0.1), 1) << x;
+  // one inside the other
+  walls.set({at(0.4, 0., 0.6, 0.), at(0., 0., 1., 0.)});
+  for (const double x : {0.1, 0.4, 0.5, 0.6, 0.9})
+    EXPECT_EQ(count(x, 0.1), 1) << x;
+  // one ends on the middle of the other: once below it, twice in its corners
+  walls.set({at(0., 0., 1., 0.), at(0.5, 0., 0.5, 1.)});
+  EXPECT_EQ(count(0.5, -0.1), 1);
+  EXPECT_EQ(count(0.45, -0.1), 1);
+  EXPECT_EQ(count(0.4, 0.1), 2);
+  EXPECT_EQ(count(0.5, 1.05), 1);
+  // beside each other
+  walls.set({at(0., 0., 1., 0.), at(0., 0.2, 1., 0.2)});
+  EXPECT_EQ(count(0.5, 0.1), 2);
+}
+
 TEST(Contacts, EnergyNeverGrows)
 {
   Scene s;

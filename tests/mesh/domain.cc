@@ -223,6 +223,42 @@ namespace
                            MeshFile,
                            testing::Values("triangles_22", "triangles_41", "quadrilaterals_22", "quadrilaterals_41"));
 
+  TEST(Domain, BothFacesOfACrackAreWalls)
+  {
+    ParameterHandler prm;
+    Domain<2>        domain;
+    set_parameters(domain, prm, {{"Domain/Mesh file", "crack_22.msh"}});
+    domain.initialize(MPI_COMM_WORLD, ALLUVIUM_TEST_DATA "/data");
+    unsigned int n_faces = 0;
+    for (const auto &wall : domain.walls())
+      if (wall.name == "pile")
+        {
+          ++n_faces;
+          EXPECT_EQ(std::abs(wall.b[1] - wall.a[1]), 0.5);
+        }
+    EXPECT_EQ(n_faces, 2u);
+    for (const double x : {0., 0.3, 0.5, 0.7, 1.})
+      for (const double y : {0., 0.3, 0.5, 0.7, 1.})
+        EXPECT_TRUE(domain.contains(x, y)) << x << ' ' << y;
+    EXPECT_FALSE(domain.contains(-0.1, 0.7));
+    EXPECT_FALSE(domain.contains(1.1, 0.7));
+    EXPECT_FALSE(domain.contains(0.5, 1.1));
+  }
+
+  TEST(Domain, ContainsWhatItsMeshCovers)
+  {
+    ParameterHandler prm;
+    Domain<2>        domain;
+    set_parameters(domain, prm, {{"Domain/Mesh file", "quadrilaterals_22.msh"}, {"Domain/Open to grains", "step"}});
+    domain.initialize(MPI_COMM_WORLD, ALLUVIUM_TEST_DATA "/data");
+    EXPECT_TRUE(domain.contains(0.25, 0.75));
+    EXPECT_TRUE(domain.contains(0.75, 0.25));
+    EXPECT_TRUE(domain.contains(0.75, 0.5)); // on a side
+    EXPECT_FALSE(domain.contains(0.75, 0.75));
+    EXPECT_FALSE(domain.contains(0.75, 0.5001));
+    EXPECT_FALSE(domain.contains(1.5, 0.25));
+  }
+
   TEST(Domain, MeshFilesThatCannotBeUsedAreExplained)
   {
     const std::string v2 = content("triangles_22.msh"), v4 = content("triangles_41.msh");

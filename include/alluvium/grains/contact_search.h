@@ -31,8 +31,9 @@ namespace alluvium::grains
   };
 
   /**
-   * Wall segments that know their shared ends. A disc near a shared end touches it once: it belongs to the first of the
-   * segments that meet there, and only if no other of them is nearer. So a disc and a segment have one contact or none.
+   * Wall segments that know where they meet: share an end, end on one another, lie on one another. A disc touches a
+   * point of several segments once: it belongs to the first of them, and only if no other is nearer. So a disc and a
+   * segment have one contact or none.
    */
   class WallGeometry
   {
@@ -57,11 +58,11 @@ namespace alluvium::grains
     bool touch(std::size_t k, double x, double y, double r, ContactPoint &point) const;
 
   private:
-    std::vector<WallSegment>                               walls;
-    std::vector<std::array<std::vector<std::uint32_t>, 2>> sharing; // other segments at ends a and b of each segment
-    bool                                                   moving = false;
+    std::vector<WallSegment>                walls;
+    std::vector<std::vector<std::uint32_t>> meeting; // the other segments that a segment has points in common with
+    bool                                    moving = false;
 
-    void find_shared_ends();
+    void find_meetings();
   };
 
   /** What the grains are in: walls, and perhaps a box that repeats itself. */

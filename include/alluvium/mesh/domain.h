@@ -97,6 +97,9 @@ namespace alluvium::mesh
      */
     std::string left_through(const std::array<double, 2> &point) const;
 
+    /** Is (x, y) [m] in the domain, or on its boundary? Obstacles are not; a periodic box goes on for ever. */
+    bool contains(double x, double y) const;
+
     /** The directions in which the rectangle repeats itself; its sides there are neither boundaries nor walls. */
     grains::Periodicity periodicity() const;
 

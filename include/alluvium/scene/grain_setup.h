@@ -41,6 +41,7 @@ namespace alluvium::scene
     double radius_factor() const { return last_factor; }
 
   private:
+    bool   moves(const std::string &wall) const; // by the parameter Motion of walls
     void   move_walls(std::vector<grains::WallSegment> &walls, const grains::Periodicity &periodicity) const;
     double find_radius_factor(const grains::GrainArrays &grains,
                               const mesh::Domain<2>     &domain,
