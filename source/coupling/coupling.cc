@@ -150,6 +150,9 @@ namespace alluvium::coupling
                       const bool                            fixed,
                       grains::GrainLoads                   &loads)
   {
+    Assert(touched.size() == grains.n(), ExcDimensionMismatch(touched.size(), grains.n()));
+    Assert(eps.size() > 0, ExcMessage("reinit() comes before the first step."));
+    Assert(dt > 0., ExcMessage("A step takes time."));
     const CouplingReport before               = last;
     const bool           moved                = update_void_fraction(grains);
     const auto           inputs               = [&] { return inputs_of(grains, touched, dt, fixed); };
@@ -189,8 +192,12 @@ namespace alluvium::coupling
 
   void Coupling::repeat(const GrainMotion &answer, const std::vector<double> &weights, grains::GrainLoads &loads)
   {
+    Assert(latest_state, ExcMessage("repeat() comes after step()."));
     const TimeScheme &scheme = scheme_choice.get();
     CouplingState    &state  = *latest_state;
+    Assert(answer.vx.size() == state.grains.n(), ExcDimensionMismatch(answer.vx.size(), state.grains.n()));
+    Assert(map.is_cut_where(state.grains), ExcMessage("The grains of step() must be where they were."));
+    Assert(weights.size() <= repeated_with.size() + 1, ExcDimensionMismatch(weights.size(), repeated_with.size() + 1));
     repeated_with.push_back(solver->solution());
     repeated_with.erase(repeated_with.begin(), repeated_with.end() - weights.size());
     state.answer = &answer;
@@ -517,6 +524,8 @@ namespace alluvium::coupling
 
   std::vector<double> Coupling::unseen_force(const GrainMotion &motion, const grains::GrainLoads &loads) const
   {
+    Assert(latest_state && map.is_cut_where(latest_state->grains),
+           ExcMessage("The grains of the latest step must be where they were."));
     const CouplingState &state = *latest_state;
     std::vector<double>  result(2 * force.size());
     for (std::size_t g = 0; g < force.size(); ++g)

@@ -87,6 +87,18 @@ namespace alluvium::coupling
   }
 
 
+  bool OverlapMap::is_cut_where(const grains::GrainArrays &grains) const
+  {
+    if (position.x.size() != grains.n())
+      return false;
+    for (std::size_t g = 0; g < grains.n(); ++g)
+      if (std::max(std::abs(grains.x[g] - position.x[g]), std::abs(grains.y[g] - position.y[g])) >
+          2. * cut_with.tolerance * grains.radius[g])
+        return false;
+    return true;
+  }
+
+
   bool OverlapMap::cut(const grains::GrainArrays &grains, const OverlapSettings &settings)
   {
     if (grains.n() == 0)

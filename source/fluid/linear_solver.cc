@@ -329,6 +329,10 @@ namespace alluvium::fluid
                                          const double                               tolerance_factor,
                                          BlockVector                               &x)
   {
+    Assert(scales.volumes.size() == matrix.m(), ExcMessage("The scales are filled before the first solve."));
+    Assert(right_hand_side.size() == matrix.m() && x.size() == matrix.m(),
+           ExcDimensionMismatch(right_hand_side.size(), matrix.m()));
+    Assert(scale[0] > 0. && scale[1] > 0., ExcMessage("Nothing is small beside terms of no size."));
     LinearSolverReport report;
     const double       ratio = scale[0] / scale[1];
     BlockVector        rhs(right_hand_side);

@@ -80,6 +80,11 @@ namespace alluvium::fluid
                                     BlockVector            &residual,
                                     BlockVector            &known)
   {
+    Assert(system_matrix.m() == space->dof_handler().n_dofs(), ExcMessage("reinit() comes after that of the space."));
+    Assert(iterate.has_ghost_elements() && problem.old->has_ghost_elements(),
+           ExcMessage("The fields' ghosts must be up to date."));
+    Assert(!residual.has_ghost_elements() && !known.has_ghost_elements(),
+           ExcMessage("Sums are not written to ghosts."));
     system_matrix = 0.;
     residual      = 0.;
     known         = 0.;

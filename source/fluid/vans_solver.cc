@@ -178,6 +178,7 @@ namespace alluvium::fluid
   template <int dim>
   void VansSolver<dim>::solve()
   {
+    Assert(current.old == &previous && current.dt > 0., ExcMessage("solve() comes after begin_step()."));
     {
       const auto timer = timers.scope("fluid: assembly");
       assembler.assemble(current, iterate, residual, known);
@@ -190,6 +191,7 @@ namespace alluvium::fluid
   template <int dim>
   void VansSolver<dim>::solve_with_new_known_terms()
   {
+    Assert(current.old == &previous && current.dt > 0., ExcMessage("This comes after solve()."));
     // the residual at the new iterate, A being the same
     residual -= known;
     assembler.known_interphase(current, known);

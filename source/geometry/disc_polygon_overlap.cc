@@ -1,5 +1,7 @@
 #include <alluvium/geometry/disc_polygon_overlap.h>
 
+#include <deal.II/base/exceptions.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -96,6 +98,7 @@ namespace alluvium::geometry
   Overlap overlap(const Disc &disc, const PreparedPolygon &cell)
   {
     const double cx = disc.centre[0], cy = disc.centre[1], r = disc.radius;
+    Assert(r > 0. && std::isfinite(cx) && std::isfinite(cy), dealii::ExcMessage("Only a disc can be cut."));
     if (cell.lower[0] - cx >= r || cx - cell.upper[0] >= r || cell.lower[1] - cy >= r || cy - cell.upper[1] >= r)
       return {};
 

@@ -2,8 +2,31 @@
 #include <alluvium/grains/contact_solver.h>
 #include <alluvium/utilities/user_error.h>
 
+#include <cmath>
+#include <utility>
+
 namespace alluvium::grains
 {
+  bool is_consistent(const ContactProblem &problem)
+  {
+    const std::size_t n = problem.discs.size();
+    if (problem.n_owned_discs > problem.n_discs || problem.n_discs > n ||
+        !(problem.rolling.empty() || problem.rolling.size() == problem.contacts.size()) ||
+        (problem.n_colours() > 0 &&
+         (problem.colour_begin.front() != 0 || problem.colour_begin.back() != problem.contacts.size())))
+      return false;
+    for (const Contact &c : problem.contacts)
+      if (c.i >= problem.n_discs || c.j >= n || c.i == c.j || std::abs(std::hypot(c.nx, c.ny) - 1.) > 1e-9)
+        return false;
+    std::vector<std::size_t> colour_of(problem.n_discs, problem.n_colours());
+    for (std::size_t colour = 0; colour < problem.n_colours(); ++colour)
+      for (std::size_t k = problem.colour_begin[colour]; k < problem.colour_begin[colour + 1]; ++k)
+        for (const std::uint32_t disc : {problem.contacts[k].i, problem.contacts[k].j})
+          if (disc < problem.n_discs && std::exchange(colour_of[disc], colour) == colour)
+            return false;
+    return true;
+  }
+
   void apply_impulses(ContactProblem &problem)
   {
     for (const Contact &c : problem.contacts)

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <deal.II/base/exceptions.h>
+
 #include <stdexcept>
 #include <vector>
 
@@ -117,6 +119,11 @@ namespace alluvium::grains
     const auto       &walls = work.geometry.walls;
     if (loads.fx.size() != n || loads.fy.size() != n || loads.drag.size() != n)
       throw std::logic_error("ContactStepper::advance: the loads have another size than the grains.");
+    Assert(grains.y.size() == n && grains.radius.size() == n && grains.mass.size() == n && grains.vx.size() == n &&
+             grains.vy.size() == n && grains.omega.size() == n,
+           dealii::ExcMessage("Columns of the grains have different lengths."));
+    Assert(std::is_sorted(grains.id.begin(), grains.id.end()),
+           dealii::ExcMessage("The grains are sorted by their ids."));
     for (const WallSegment &w : walls.segments())
       report.wall_force[w.name] = {{0., 0.}};
     work.all_touched.assign(n, 0);

@@ -4,6 +4,8 @@
 #include <alluvium/grains/contact_substep.h>
 #include <alluvium/utilities/divergence.h>
 
+#include <deal.II/base/exceptions.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -180,6 +182,7 @@ namespace alluvium::grains
     for (bool keep = false;; keep = true)
       {
         set_problem(keep);
+        Assert(is_consistent(problem), dealii::ExcMessage("The contacts are not what the solvers rely on."));
         if (!keep && settings.cold_start && step.scales.g > 0. && active.is_cold(work.n_all(), problem))
           {
             tolerance.at_rest = true; // also in later rounds

@@ -44,6 +44,9 @@ namespace alluvium::coupling
     const std::vector<double> &x_of_cut() const { return position.x; }
     const std::vector<double> &y_of_cut() const { return position.y; }
 
+    /** Are the pieces those of @p grains where they are now, to the tolerance of the last cut? */
+    bool is_cut_where(const grains::GrainArrays &grains) const;
+
     /** The pieces; their exchange terms are the time scheme's to fill. */
     fluid::InterphaseTerms<dim>       &terms() { return pieces; }
     const fluid::InterphaseTerms<dim> &terms() const { return pieces; }

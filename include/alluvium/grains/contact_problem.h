@@ -99,6 +99,10 @@ namespace alluvium::grains
     }
   };
 
+  /** Is what solvers rely on true: sizes, numbers of discs, colours that share none? For Assert: it takes a sweep's
+   * time. */
+  bool is_consistent(const ContactProblem &problem);
+
   /** Add the velocities that the impulses in @p problem cause to its velocities. */
   void apply_impulses(ContactProblem &problem);
 } // namespace alluvium::grains
