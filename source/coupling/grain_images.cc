@@ -52,6 +52,15 @@ namespace alluvium::coupling
   }
 
 
+  void GrainImages::add(const std::size_t k, const std::array<double, 2> &off)
+  {
+    x.push_back(x[k] + off[0]);
+    y.push_back(y[k] + off[1]);
+    grain.push_back(grain[k]);
+    offset.push_back({{offset[k][0] + off[0], offset[k][1] + off[1]}});
+  }
+
+
   std::array<std::vector<double>, 2> straight_sides(const fluid::FluidSpace<2> &space)
   {
     constexpr unsigned int                 dim = 2;

@@ -60,9 +60,10 @@ namespace alluvium::coupling
           polygon.vertex[n == 4 && v >= 2 ? 5 - v : v] = {{cell.vertex[v][0], cell.vertex[v][1]}};
         polygons.emplace_back(polygon);
       }
-    grid       = geometry::RectangleGrid(polygons);
-    mirrors    = straight_sides(*space);
-    too_uneven = Utilities::MPI::max(static_cast<unsigned int>(grid.too_uneven()), space->communicator()) > 0;
+    grid          = geometry::RectangleGrid(polygons);
+    mirrors       = straight_sides(*space);
+    other_mirrors = BoundaryMirrors(*space);
+    too_uneven    = Utilities::MPI::max(static_cast<unsigned int>(grid.too_uneven()), space->communicator()) > 0;
   }
 
 
@@ -126,9 +127,11 @@ namespace alluvium::coupling
           position.x[g] = grains.x[g];
           position.y[g] = grains.y[g];
         }
-    const GrainImages now(position.x, position.y, max_radius, box, mirrors);
-    const GrainImages then = all ? GrainImages() : GrainImages(before.x, before.y, max_radius, box, mirrors);
-    if (!grid.empty() && settings.rule != OverlapSettings::Rule::centre && !settings.keep_arms)
+    GrainImages then = all ? GrainImages() : GrainImages(before.x, before.y, max_radius, box, mirrors);
+    GrainImages now(position.x, position.y, max_radius, box, mirrors);
+    other_mirrors.add_images(then, max_radius);
+    other_mirrors.add_images(now, max_radius); // the last, for sees()
+    if (!grid.empty() && other_mirrors.empty() && settings.rule != OverlapSettings::Rule::centre && !settings.keep_arms)
       cut_on_grid(now, then, moved, settings);
     else
       cut_cells(now, then, moved, settings);
@@ -193,7 +196,7 @@ namespace alluvium::coupling
                 geometry::Overlap      o      = settings.rule == OverlapSettings::Rule::centre
                                                   ? cell_of_centre(centre, polygon)
                                                   : overlap_of_disc({centre, position.radius[g]}, polygon);
-                if (o.area > 0.)
+                if (o.area > 0. && other_mirrors.sees(now, k, o.centroid))
                   {
                     for (unsigned int d = 0; d < dim; ++d)
                       o.arm[d] += now.offset[k][d];

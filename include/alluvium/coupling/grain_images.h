@@ -23,6 +23,9 @@ namespace alluvium::coupling
 
     std::size_t n() const { return x.size(); }
 
+    /** Add an image of image @p k, moved by @p off [m] by a mirror. */
+    void add(const std::size_t k, const std::array<double, 2> &off);
+
     std::vector<double>                x, y;   // [m]
     std::vector<unsigned int>          grain;  // the one it is an image of
     std::vector<std::array<double, 2>> offset; // of a mirror image's centre from the grain's [m]

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <alluvium/coupling/boundary_mirrors.h>
 #include <alluvium/coupling/overlap_settings.h>
 #include <alluvium/fluid/fluid_space.h>
 #include <alluvium/fluid/interphase.h>
@@ -7,8 +8,6 @@
 
 namespace alluvium::coupling
 {
-  struct GrainImages;
-
   /** Where a piece is in its grain, and how far it stretches. */
   struct PieceArm
   {
@@ -98,7 +97,8 @@ namespace alluvium::coupling
     std::vector<geometry::PreparedPolygon> polygons;
     geometry::RectangleGrid                grid; // of the same; empty where they are no rectangles
     bool                                   too_uneven = false;
-    std::array<std::vector<double>, dim>   mirrors; // straight_sides() of the domain
+    std::array<std::vector<double>, dim>   mirrors;       // straight_sides() of the domain
+    BoundaryMirrors                        other_mirrors; // its other sides
     fluid::InterphaseTerms<dim>            pieces;
     std::vector<unsigned int>              grain_of_piece;
     std::vector<PieceArm>                  arm_of_piece;
