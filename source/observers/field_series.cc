@@ -84,9 +84,14 @@ namespace alluvium::observers
     if (root == n_ranks)
       return; // nobody has
 
-    double bytes = 8. * filter.n_nodes() * 2. + 4. * filter.n_cells() * cell.n_vertices();
-    for (unsigned int d = 0; d < filter.n_data_sets(); ++d)
-      bytes += 8. * filter.n_nodes() * filter.get_data_set_dim(d);
+    // deal.II's filter knows the number of cells only where it has some; there are at most two of four corners a node
+    double bytes = 0.;
+    if (has_data)
+      {
+        bytes = (2. * 8. + 2. * 4. * 4.) * filter.n_nodes();
+        for (unsigned int d = 0; d < filter.n_data_sets(); ++d)
+          bytes += 8. * filter.n_nodes() * filter.get_data_set_dim(d);
+      }
     check_room(communicator, folder + "/" + file, 1.1 * Utilities::MPI::sum(bytes, communicator) + 1e5);
 
     MPI_Comm those;
