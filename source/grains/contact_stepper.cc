@@ -7,11 +7,11 @@
 #include <alluvium/grains/soft_spheres.h>
 #include <alluvium/utilities/plugin.h>
 
+#include <deal.II/base/exceptions.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <deal.II/base/exceptions.h>
-
 #include <stdexcept>
 #include <vector>
 
