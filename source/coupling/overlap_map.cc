@@ -104,14 +104,13 @@ namespace alluvium::coupling
   {
     if (grains.n() == 0)
       {
-        const bool had_some = !grain_of_piece.empty();
         take_pieces();
         resize_pieces(0);
         pieces.exchange.clear();
         pieces.begin.assign(polygons.size() + 1, 0);
         position = {};
         cut_with = settings;
-        return had_some;
+        return true; // on all ranks, whoever had pieces
       }
     const std::vector<std::uint8_t> moved = find_moved(grains, settings);
     if (std::none_of(moved.begin(), moved.end(), [](auto m) { return m; }))

@@ -21,5 +21,5 @@ must_be 0.3125 3e-3 'body force'
 must_run 1 layer.prm --set 'Output/Overwrite output folder=true' --set 'Gravity=0.5,-9.8' --set 'Fluid/Mean pressure gradient=rho*0.5 | 0'
 must_be 0 1e-12 'gravity held by a pressure gradient'
 
-must_fail "Mean pressure gradient: y is no periodic direction" 1 layer.prm --set 'Fluid/Mean pressure gradient=0 | 3'
-must_fail "Body force: .* several values" 1 layer.prm --set 'Fluid/Body force=0,5 | 0'
+must_fail "Mean pressure gradient: y is no periodic direction" 1 layer.prm --set 'Output/Overwrite output folder=true' --set 'Fluid/Mean pressure gradient=0 | 3'
+must_fail "Body force: .* several values" 1 layer.prm --set 'Output/Overwrite output folder=true' --set 'Fluid/Body force=0,5 | 0'
