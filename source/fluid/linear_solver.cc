@@ -46,6 +46,16 @@ namespace alluvium::fluid
       return residual.l2_norm();
     }
 
+    /** What rounding the terms of a row leaves of a residual: no solver can do better. */
+    double round_off(const TrilinosWrappers::BlockSparseMatrix &matrix, const double scale, const BlockVector &x)
+    {
+      double sum = 0.;
+      for (unsigned int a = 0; a < 2; ++a)
+        for (unsigned int b = 0; b < 2; ++b)
+          sum += (a == 1 ? scale : 1.) * matrix.block(a, b).linfty_norm() * x.block(b).l2_norm();
+      return 4. * std::numeric_limits<double>::epsilon() * sum;
+    }
+
     /** Call @p action(values, their number) for each block of @p matrix; they are one after the other in memory. */
     template <typename Action>
     void for_each_block(const TrilinosWrappers::BlockSparseMatrix &matrix, const Action &action)
@@ -375,7 +385,7 @@ namespace alluvium::fluid
             convective = convective || fresh;
             build(matrix, row_sums);
           }
-        else if (!converged && found <= acceptable)
+        else if (!converged && found <= std::max(acceptable, std::min(round_off(matrix, ratio, x), 1e-3 * scale[0])))
           // it stalls where round-off of large cancelling terms is above the tolerance: good enough is told, not hidden
           solved = report.loose = true;
         else if (!converged)
