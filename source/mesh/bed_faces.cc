@@ -101,6 +101,19 @@ namespace alluvium::mesh
   }
 
 
+  grains::GrainArrays turned(const grains::GrainArrays &grains, const geometry::Upright &upright)
+  {
+    grains::GrainArrays result = grains;
+    for (std::size_t i = 0; i < grains.n(); ++i)
+      {
+        const auto at = upright.to({{grains.x[i], grains.y[i]}});
+        result.x[i]   = at[0];
+        result.y[i]   = at[1];
+      }
+    return result;
+  }
+
+
   BedFaces find_bed_faces(const grains::GrainArrays &grains,
                           const double               left,
                           const double               right,
@@ -108,14 +121,7 @@ namespace alluvium::mesh
   {
     if (!upright.is_default())
       {
-        grains::GrainArrays turned = grains;
-        for (std::size_t i = 0; i < grains.n(); ++i)
-          {
-            const auto at = upright.to({{grains.x[i], grains.y[i]}});
-            turned.x[i]   = at[0];
-            turned.y[i]   = at[1];
-          }
-        BedFaces result = find_bed_faces(turned, left, right);
+        BedFaces result = find_bed_faces(turned(grains, upright), left, right);
         result.upright  = upright;
         return result;
       }

@@ -49,16 +49,7 @@ namespace alluvium::mesh
                          const geometry::Upright   &upright)
   {
     if (!upright.is_default())
-      {
-        grains::GrainArrays turned = grains;
-        for (std::size_t i = 0; i < grains.n(); ++i)
-          {
-            const auto at = upright.to({{grains.x[i], grains.y[i]}});
-            turned.x[i]   = at[0];
-            turned.y[i]   = at[1];
-          }
-        return measure_bed(turned, left, right);
-      }
+      return measure_bed(turned(grains, upright), left, right);
     BedPacking               result;
     double                   area   = 0.;
     bool                     is_cut = false; // is it other than its faces, from side to side?

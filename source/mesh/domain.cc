@@ -52,6 +52,40 @@ namespace alluvium::mesh
           throw UserError("Mesh file '" + path + "' cannot be used: " + message_of(error));
         }
     }
+
+    /** @p sides, of which what belongs to @p part is on its own and has its name. */
+    std::vector<grains::WallSegment> divided(const std::vector<grains::WallSegment> &sides,
+                                             const geometry::BoundaryPart           &part)
+    {
+      std::vector<grains::WallSegment> result;
+      for (const auto &side : sides)
+        {
+          if (side.name != part.side_name)
+            {
+              result.push_back(side);
+              continue;
+            }
+          for (const auto &piece : geometry::divide_face({part}, part.side, side.a, side.b))
+            {
+              result.push_back(side);
+              for (unsigned int d = 0; d < 2; ++d)
+                {
+                  result.back().a[d] = side.a[d] + piece.begin * (side.b[d] - side.a[d]);
+                  result.back().b[d] = side.a[d] + piece.end * (side.b[d] - side.a[d]);
+                }
+              if (piece.id == part.id)
+                result.back().name = part.name;
+            }
+        }
+      return result;
+    }
+
+    double distance_to(const grains::WallSegment &side, const double x, const double y)
+    {
+      const double ex = side.b[0] - side.a[0], ey = side.b[1] - side.a[1];
+      const double t = std::clamp(((x - side.a[0]) * ex + (y - side.a[1]) * ey) / (ex * ex + ey * ey), 0., 1.);
+      return std::hypot(side.a[0] + t * ex - x, side.a[1] + t * ey - y);
+    }
   } // namespace
 
 
@@ -174,7 +208,7 @@ namespace alluvium::mesh
     all_sides = wall_segments;
     name_parts();
     for (const auto &part : named_parts)
-      name_in_sides(part);
+      all_sides = divided(all_sides, part);
 
     for (const auto &name : open_to_grains_names())
       {
@@ -187,10 +221,7 @@ namespace alluvium::mesh
         const auto part =
           std::find_if(named_parts.begin(), named_parts.end(), [&](const auto &p) { return p.name == name; });
         if (part != named_parts.end())
-          {
-            open_part(*part);
-            continue;
-          }
+          wall_segments = divided(wall_segments, *part);
         wall_segments.erase(std::remove_if(wall_segments.begin(),
                                            wall_segments.end(),
                                            [&](const auto &wall) { return wall.name == name; }),
@@ -217,60 +248,6 @@ namespace alluvium::mesh
 
 
   template <int dim>
-  void Domain<dim>::name_in_sides(const geometry::BoundaryPart &part)
-  {
-    std::vector<grains::WallSegment> sides;
-    for (const auto &side : all_sides)
-      {
-        if (side.name != part.side_name)
-          {
-            sides.push_back(side);
-            continue;
-          }
-        for (const auto &piece : geometry::divide_face({part}, part.side, side.a, side.b))
-          {
-            sides.push_back(side);
-            for (unsigned int d = 0; d < 2; ++d)
-              {
-                sides.back().a[d] = side.a[d] + piece.begin * (side.b[d] - side.a[d]);
-                sides.back().b[d] = side.a[d] + piece.end * (side.b[d] - side.a[d]);
-              }
-            if (piece.id == part.id)
-              sides.back().name = part.name;
-          }
-      }
-    all_sides = sides;
-  }
-
-
-  template <int dim>
-  void Domain<dim>::open_part(const geometry::BoundaryPart &part)
-  {
-    std::vector<grains::WallSegment> walls;
-    for (const auto &wall : wall_segments)
-      {
-        if (wall.name != part.side_name)
-          {
-            walls.push_back(wall);
-            continue;
-          }
-        const auto at = [&](const double s) {
-          return std::array<double, 2>{
-            {wall.a[0] + s * (wall.b[0] - wall.a[0]), wall.a[1] + s * (wall.b[1] - wall.a[1])}};
-        };
-        for (const auto &piece : geometry::divide_face({part}, part.side, wall.a, wall.b))
-          if (piece.id != part.id)
-            {
-              walls.push_back(wall);
-              walls.back().a = at(piece.begin);
-              walls.back().b = at(piece.end);
-            }
-      }
-    wall_segments = walls;
-  }
-
-
-  template <int dim>
   std::string Domain<dim>::left_through(const std::array<double, 2> &point) const
   {
     const auto open = open_to_grains_names();
@@ -285,9 +262,7 @@ namespace alluvium::mesh
       for (const auto &s : all_sides)
         if ((std::find(open.begin(), open.end(), s.name) != open.end()) == is_open)
           {
-            const double ex = s.b[0] - s.a[0], ey = s.b[1] - s.a[1];
-            const double t        = std::clamp(((x - s.a[0]) * ex + (y - s.a[1]) * ey) / (ex * ex + ey * ey), 0., 1.);
-            const double distance = std::hypot(x - s.a[0] - t * ex, y - s.a[1] - t * ey);
+            const double distance = distance_to(s, x, y);
             if (distance < (1. - 1e-9) * nearest)
               {
                 nearest = distance;
@@ -311,12 +286,11 @@ namespace alluvium::mesh
     bool inside = false;
     for (const grains::WallSegment &side : all_sides)
       {
-        const double ex = side.b[0] - side.a[0], ey = side.b[1] - side.a[1];
-        const double t = std::clamp(((x - side.a[0]) * ex + (y - side.a[1]) * ey) / (ex * ex + ey * ey), 0., 1.);
-        if (std::hypot(side.a[0] + t * ex - x, side.a[1] + t * ey - y) <= tolerance)
+        if (distance_to(side, x, y) <= tolerance)
           return true;
         // a ray to the right crosses the boundary an odd number of times; both faces of a crack count
-        if ((side.a[1] > y) != (side.b[1] > y) && side.a[0] + (y - side.a[1]) / ey * ex > x)
+        if ((side.a[1] > y) != (side.b[1] > y) &&
+            side.a[0] + (y - side.a[1]) / (side.b[1] - side.a[1]) * (side.b[0] - side.a[0]) > x)
           inside = !inside;
       }
     return inside;

@@ -16,20 +16,6 @@ namespace alluvium::run
 {
   namespace
   {
-    /** The grains as they would lie with gravity along -y. */
-    grains::GrainArrays upright_grains(const Model &m)
-    {
-      grains::GrainArrays turned = m.grains;
-      for (std::size_t i = 0; i < turned.n(); ++i)
-        {
-          const auto at = m.upright().to({{m.grains.x[i], m.grains.y[i]}});
-          turned.x[i]   = at[0];
-          turned.y[i]   = at[1];
-        }
-      return turned;
-    }
-
-
     std::string number(const double x)
     {
       std::ostringstream text;
@@ -127,7 +113,7 @@ namespace alluvium::run
            number(s.radius_factor) + " of the contact radius");
     if (s.bed.solid > 0.)
       {
-        const double inside = grains::inner_packing_fraction(upright_grains(m));
+        const double inside = grains::inner_packing_fraction(mesh::turned(m.grains, m.upright()));
         line("bed",
              (m.initial_bed.empty()
                 ? std::string()

@@ -42,6 +42,9 @@ namespace alluvium::mesh
   /** Mean contact diameter of @p grains [m], 0 without grains. */
   double mean_diameter(const grains::GrainArrays &grains);
 
+  /** @p grains with their centres at (across, height) of @p upright; the rest is as it was. */
+  grains::GrainArrays turned(const grains::GrainArrays &grains, const geometry::Upright &upright);
+
   /**
    * Find the faces in columns about 8 mean diameters wide between @p left and @p right [m], coordinates across @p
    * upright (x where gravity is along -y).

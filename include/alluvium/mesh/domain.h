@@ -109,8 +109,6 @@ namespace alluvium::mesh
   private:
     void read_mesh_file(const std::string &directory);
     void name_parts();
-    void name_in_sides(const geometry::BoundaryPart &part);
-    void open_part(const geometry::BoundaryPart &part);
     void make_rectangle(dealii::Triangulation<dim, dim> &triangulation, double cell_size) const;
 
     dealii::Point<dim> lower_corner, upper_corner;
