@@ -23,7 +23,7 @@ namespace
   {
   protected:
     FilesWritten()
-      : folder("/tmp/alluvium_written_" + std::to_string(getppid()))
+      : folder("/tmp/alluvium_written_" + std::to_string(dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, getpid())))
     {
       if (rank == 0)
         {
