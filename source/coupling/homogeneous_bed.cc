@@ -27,7 +27,8 @@ namespace alluvium::coupling
     double volume = 0.;
     for (const double r : grains.fluid_radius)
       volume += dealii::numbers::PI * r * r;
-    return fluid.viscosity * eps * eps * volume / ((1. - eps) * resistance(law, 0.));
+    const double drag = resistance(law, 0.);
+    return drag > 0. ? fluid.viscosity * eps * eps * volume / ((1. - eps) * drag) : 0.;
   }
 
 
@@ -35,13 +36,14 @@ namespace alluvium::coupling
   {
     double weight = 0.;
     for (std::size_t i = 0; i < grains.n(); ++i)
-      weight +=
-        g * (grains.mass[i] - fluid.density * dealii::numbers::PI * grains.fluid_radius[i] * grains.fluid_radius[i]);
-    if (!(weight > 0.))
-      return 0.;
-    const auto excess = [&](const double u) { return resistance(law, u) * u / eps - weight; };
+      if (!std::isinf(grains.mass[i]))
+        weight +=
+          g * (grains.mass[i] - fluid.density * dealii::numbers::PI * grains.fluid_radius[i] * grains.fluid_radius[i]);
     // inertia only adds to the drag of creeping flow: that is where the search starts
-    const double   start        = eps * weight / resistance(law, 0.);
+    const double start = eps * weight / resistance(law, 0.);
+    if (!(weight > 0.) || !std::isfinite(start))
+      return 0.;
+    const auto     excess       = [&](const double u) { return resistance(law, u) * u / eps - weight; };
     std::uintmax_t n_iterations = 200;
     const auto [low, high]      = boost::math::tools::bracket_and_solve_root(
       excess, start, 2., true, boost::math::tools::eps_tolerance<double>(48), n_iterations);
@@ -54,7 +56,8 @@ namespace alluvium::coupling
     double mass = 0.;
     for (const double m : grains.mass)
       mass += std::isinf(m) ? 0. : m;
-    return mass / resistance(law, 0.);
+    const double drag = resistance(law, 0.);
+    return drag > 0. ? mass / drag : 0.;
   }
 
 

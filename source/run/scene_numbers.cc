@@ -107,6 +107,7 @@ namespace alluvium::run
                                          : bed.permeability(law))
                      : 0.; // the pieces are those of all grains
         s.fluidisation_velocity = bed.fluidisation_velocity(law, gravity);
+        s.has_drag              = bed.has_drag(law);
         s.relaxation_time       = bed.relaxation_time(law);
         const double d          = s.diameter * s.radius_factor;
         s.viscous_time          = fluid.viscosity > 0. ? fluid.density * s.diameter * s.diameter / fluid.viscosity : 0.;

@@ -136,10 +136,12 @@ namespace alluvium::run
         line("drag law",
              m.coupling.drag_law_name() + " (void fraction " + number(range.eps_min) + " to " + number(range.eps_max) +
                ", Reynolds number to " + number(range.re_max) + ")" +
-               (s.eps < 1. ? "; bed of void fraction " + number(s.eps) + ": permeability " + number(s.permeability) +
-                               " m^2, fluidised at a superficial velocity of " + number(s.fluidisation_velocity) +
-                               " m/s" + (range.contains(s.eps, range.re_min) ? "" : "; it lies outside the law's range")
-                           : ""));
+               (!s.has_drag ? "; no drag: the fluid reaches grains through its pressure only"
+                : s.eps < 1.
+                  ? "; bed of void fraction " + number(s.eps) + ": permeability " + number(s.permeability) +
+                      " m^2, fluidised at a superficial velocity of " + number(s.fluidisation_velocity) + " m/s" +
+                      (range.contains(s.eps, range.re_min) ? "" : "; it lies outside the law's range")
+                  : ""));
         if (s.critical_gradient > 0.)
           line("heave",
                "critical gradient " + rounded(s.critical_gradient) +
@@ -160,8 +162,10 @@ namespace alluvium::run
                     : "") +
                  "; Shields number 1 is a shear stress of " + rounded(s.shields_stress) + " Pa");
         line("time step",
-             number(m.time_step) + " s: " + rounded(m.time_step / s.relaxation_time) + " tau_p (" +
-               rounded(s.relaxation_time) + " s" + (s.eps < 1. ? ", in the bed)" : ")") +
+             number(m.time_step) + " s" +
+               (s.relaxation_time > 0. ? ": " + rounded(m.time_step / s.relaxation_time) + " tau_p (" +
+                                           rounded(s.relaxation_time) + " s" + (s.eps < 1. ? ", in the bed)" : ")")
+                                       : "") +
                (s.courant > 0.
                   ? "; Courant number " + rounded(s.courant) + " at " + rounded(s.velocity) + " m/s, " + s.velocity_of
                   : ""));

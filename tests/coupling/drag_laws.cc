@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <limits>
 
 namespace
 {
@@ -141,6 +142,21 @@ TEST(DragLaws, HomogeneousBed)
                   1.,
                   1e-2)
         << entry.first;
+    }
+  // a grain of infinite mass is held: the others are carried as if alone with it
+  const double all = homogeneous.fluidisation_velocity(*ergun.law, g);
+  grains.mass[1]   = std::numeric_limits<double>::infinity();
+  EXPECT_NEAR(homogeneous.fluidisation_velocity(*ergun.law, g) / all, 2. / 3., 1e-6);
+  grains.mass[1] = grains.mass[0];
+  EXPECT_TRUE(homogeneous.has_drag(*ergun.law));
+  for (const char *name : {"disc", "Ergun"}) // without drag nothing is carried, and nothing is infinite
+    {
+      Law none(name);
+      none.prm.set("Factor", 0.);
+      EXPECT_FALSE(homogeneous.has_drag(*none.law));
+      EXPECT_EQ(homogeneous.fluidisation_velocity(*none.law, g), 0.);
+      EXPECT_EQ(homogeneous.permeability(*none.law), 0.);
+      EXPECT_EQ(homogeneous.relaxation_time(*none.law), 0.);
     }
   for (double &m : grains.mass)
     m *= 0.3; // lighter than the fluid

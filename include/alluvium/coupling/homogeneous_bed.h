@@ -19,17 +19,24 @@ namespace alluvium::coupling
     const fluid::FluidProperties &fluid;
     double                        eps;
 
-    /** K [m^2] of Darcy's law U = K |grad p| / eta in creeping flow: eta eps^2 / ((1 - eps) gamma(0)). */
+    /** Whether the law gives these grains any drag. */
+    bool has_drag(const DragLaw &law) const
+    {
+      return resistance(law, 0.) > 0.;
+    }
+
+    /** K [m^2] of Darcy's law U = K |grad p| / eta in creeping flow: eta eps^2 / ((1 - eps) gamma(0)); 0 without drag.
+     */
     double permeability(const DragLaw &law) const;
 
     /**
      * Superficial velocity [m/s] at which the fluid carries the grains under gravity @p g [m/s^2]: drag and pressure
      * gradient together, sum of V gamma u / eps, are their weight less buoyancy. 0 for grains no heavier than the
-     * fluid.
+     * fluid, and without drag. Grains of infinite mass are not carried.
      */
     double fluidisation_velocity(const DragLaw &law, const double g) const;
 
-    /** Mass of the grains over their drag in creeping flow, at this void fraction [s]. */
+    /** Mass of the grains over their drag in creeping flow, at this void fraction [s]; 0 without drag. */
     double relaxation_time(const DragLaw &law) const;
 
   private:

@@ -27,6 +27,7 @@ namespace alluvium::run
     double terminal_velocity = 0.;                      // of a grain alone [m/s]
     double shields_stress    = 0.;                      // (rho_p - rho) g d [Pa]
 
+    bool        has_drag        = false;
     double      relaxation_time = 0.; // mass over drag in creeping flow, in the bed if there is one [s]
     double      velocity        = 0.; // the largest to be expected at least [m/s] ...
     std::string velocity_of;          // ... and where it is from
