@@ -1,4 +1,5 @@
 #include <alluvium/run/check_boundaries.h>
+#include <alluvium/run/check_walls.h>
 #include <alluvium/run/checkpoint.h>
 #include <alluvium/run/leavers.h>
 #include <alluvium/run/mesh_changes.h>
@@ -120,6 +121,7 @@ namespace alluvium
                "Output/Restart: the checkpoint is of t = " + in_digits(model.time) +
                  " s, and Time/End time = " + in_digits(end_time) + " s has passed: nothing is left to do.");
     run::check_boundaries(model, end_time);
+    run::check_walls(model);
     output.choose_observers();
     if (writes && !restart)
       output.make_folder(false);
@@ -252,6 +254,7 @@ namespace alluvium
 
     if (m.grains_move)
       {
+        m.contacts.set_time(m.time);
         if (m.has_fluid)
           m.contact_report = m.contact_iteration.advance(m.grains, m.loads, dt, m.gravity);
         else
@@ -259,6 +262,7 @@ namespace alluvium
             const auto timer = m.timers.scope("contacts");
             m.contact_report = m.contacts.advance(m.grains, m.loads, dt, m.gravity);
           }
+        guard.judge_contacts(); // before grains are put where they cannot be
         const auto timer = m.timers.scope("contacts");
         m.touched        = m.contacts.touched();
         m.store.scatter(m.grains);

@@ -17,6 +17,8 @@ namespace alluvium::grains
     on_grain.assign(bodies.n_discs() + ContactBodies::n_dummies, {});
     const ContactCandidates   &pairs      = work.neighbours.pairs;
     std::vector<std::uint8_t> &touches    = work.touched();
+    GrainArrays               &grains     = work.grains();
+    const auto                &walls      = work.geometry.walls.segments();
     unsigned int               n_contacts = 0;
     from_contacts.clear();
     for (std::size_t k = 0; k < problem.contacts.size(); ++k)
@@ -40,12 +42,22 @@ namespace alluvium::grains
           }
         touches[c.i] = 1;
         if (active.is_wall(k, pairs))
-          from_contacts.push_back({active.pair(k, pairs).j, {{ix, iy}}});
+          {
+            const std::size_t w    = active.pair(k, pairs).j;
+            const auto       &wall = walls[w];
+            double            work = 0.;
+            if (wall.velocity[0] != 0. || wall.velocity[1] != 0. || wall.spin != 0.)
+              {
+                const double r = grains.radius[c.i];
+                const auto   v = wall.velocity_at(grains.x[c.i] + r * c.nx, grains.y[c.i] + r * c.ny);
+                work           = -(ix * v[0] + iy * v[1]);
+              }
+            from_contacts.push_back({w, {{ix, iy, work}}});
+          }
         else
           touches[c.j] = 1;
       }
     add_wall_impulses(work.communicator());
-    GrainArrays &grains = work.grains();
     for (std::size_t k = 0; k < work.n_owned(); ++k)
       {
         const Impulse &p = on_grain[k];
@@ -69,8 +81,11 @@ namespace alluvium::grains
         grains.fcy[k] += bonds.on_grain[k][1];
       }
     for (std::size_t k = 0; k < bonds.on_wall.size(); ++k)
-      for (unsigned int d = 0; d < 2; ++d)
-        on_wall[k][d] += bonds.on_wall[k][d];
+      {
+        for (unsigned int d = 0; d < 2; ++d)
+          on_wall[k][d] += bonds.on_wall[k][d];
+        on_wall[k][2] += speed_of(walls[k]) * std::hypot(bonds.on_wall[k][0], bonds.on_wall[k][1]); // at most
+      }
     return n_contacts;
   }
 
@@ -79,25 +94,26 @@ namespace alluvium::grains
   {
     if (on_wall.empty())
       return;
+    constexpr unsigned int             n     = 3;
     const std::size_t                  n_all = count_over_ranks(communicator, from_contacts.size());
-    std::vector<std::array<double, 2>> sums(on_wall.size(), {{0., 0.}});
+    std::vector<std::array<double, 3>> sums(on_wall.size(), {{0., 0., 0.}});
     for (const WallImpulse &p : from_contacts)
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < n; ++d)
         sums[p.wall][d] = std::max(sums[p.wall][d], std::abs(p.impulse[d]));
     if (communicator != nullptr)
-      communicator->max(sums[0].data(), 2 * sums.size());
-    std::vector<std::array<double, 2>> shifts(sums.size());
+      communicator->max(sums[0].data(), n * sums.size());
+    std::vector<std::array<double, 3>> shifts(sums.size());
     for (std::size_t w = 0; w < sums.size(); ++w)
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < n; ++d)
         shifts[w][d] = ReproducibleSum(n_all * sums[w][d]).unit_shift();
-    sums.assign(sums.size(), {{0., 0.}});
+    sums.assign(sums.size(), {{0., 0., 0.}});
     for (const WallImpulse &p : from_contacts)
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < n; ++d)
         sums[p.wall][d] += (p.impulse[d] + shifts[p.wall][d]) - shifts[p.wall][d];
     if (communicator != nullptr)
-      communicator->sum(sums[0].data(), 2 * sums.size());
+      communicator->sum(sums[0].data(), n * sums.size());
     for (std::size_t w = 0; w < sums.size(); ++w)
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < n; ++d)
         on_wall[w][d] += sums[w][d];
   }
 } // namespace alluvium::grains

@@ -13,15 +13,6 @@ namespace alluvium::grains
 {
   namespace
   {
-    /** Parameter of the point of segment @p w nearest to (x, y): 0 at a, 1 at b. */
-    double project(const WallSegment &w, const double x, const double y)
-    {
-      const double ex = w.b[0] - w.a[0], ey = w.b[1] - w.a[1], e2 = ex * ex + ey * ey;
-      if (e2 == 0.)
-        return 0.;
-      return std::clamp(((x - w.a[0]) * ex + (y - w.a[1]) * ey) / e2, 0., 1.);
-    }
-
     bool same_point(const std::array<double, 2> &p, const std::array<double, 2> &q, const double tolerance)
     {
       return std::abs(p[0] - q[0]) <= tolerance && std::abs(p[1] - q[1]) <= tolerance;
@@ -34,13 +25,6 @@ namespace alluvium::grains
 
     // of the longer of two segments: points nearer to each other are the same
     constexpr double same_point_tolerance = 1e-9;
-
-    double distance_to(const WallSegment &w, const double x, const double y)
-    {
-      const double t  = project(w, x, y);
-      const double dx = w.a[0] + t * (w.b[0] - w.a[0]) - x, dy = w.a[1] + t * (w.b[1] - w.a[1]) - y;
-      return std::sqrt(dx * dx + dy * dy);
-    }
 
     /** Grains sorted into the cells of a grid over their bounding box, or over the box where it is periodic. */
     struct CellGrid
@@ -128,7 +112,7 @@ namespace alluvium::grains
   void WallGeometry::set(std::vector<WallSegment> segments)
   {
     walls  = std::move(segments);
-    moving = largest_speed() > 0.;
+    moving = std::any_of(walls.begin(), walls.end(), ever_acts);
     find_meetings();
   }
 
@@ -137,7 +121,7 @@ namespace alluvium::grains
     std::vector<double> result;
     if (moving)
       for (const WallSegment &w : walls)
-        result.insert(result.end(), {w.a[0], w.a[1], w.b[0], w.b[1], w.centre[0], w.centre[1]});
+        result.insert(result.end(), {w.a[0], w.a[1], w.b[0], w.b[1], w.centre[0], w.centre[1], double(w.present)});
     return result;
   }
 
@@ -145,13 +129,16 @@ namespace alluvium::grains
   {
     if (positions.empty())
       return;
-    check_user(positions.size() == 6 * walls.size(), "The checkpoint is of a scene with other walls.");
+    constexpr std::size_t n_each = 7;
+    check_user(positions.size() == n_each * walls.size(), "The checkpoint is of a scene with other walls.");
+    moving = true; // they have moved: the next checkpoint must know
     for (std::size_t k = 0; k < walls.size(); ++k)
       {
-        const double *const p = &positions[6 * k];
+        const double *const p = &positions[n_each * k];
         walls[k].a            = {{p[0], p[1]}};
         walls[k].b            = {{p[2], p[3]}};
         walls[k].centre       = {{p[4], p[5]}};
+        walls[k].present      = p[6] != 0.;
       }
     find_meetings();
   }
@@ -160,12 +147,49 @@ namespace alluvium::grains
   {
     double speed = 0.;
     for (const WallSegment &w : walls)
-      for (const auto &end : {w.a, w.b})
-        {
-          const auto v = w.velocity_at(end[0], end[1]);
-          speed        = std::max(speed, std::hypot(v[0], v[1]));
-        }
+      if (w.present)
+        speed = std::max(speed, speed_of(w));
     return speed;
+  }
+
+  bool WallGeometry::act(const double dt) const
+  {
+    return std::any_of(walls.begin(), walls.end(), [&](const WallSegment &w) {
+      return w.motion ? w.present != w.motion->is_present(time) || w.motion->acts(time, dt) : ever_acts(w);
+    });
+  }
+
+  void WallGeometry::begin_substep(const double h)
+  {
+    if (moving)
+      for (WallSegment &w : walls)
+        if (w.motion)
+          {
+            const auto v = w.motion->mean_velocity(time, h);
+            w.velocity   = {{v[0], v[1]}};
+            w.spin       = v[2];
+            w.present    = w.motion->is_present(time);
+          }
+  }
+
+  unsigned int WallGeometry::count_substeps(const double dt, const double smallest_diameter) const
+  {
+    // a wall that turns leaves the tangent on which contacts see it move
+    double n = 1.;
+    for (const WallSegment &w : walls)
+      {
+        const double spin = w.motion ? w.motion->mean_velocity(time, dt)[2] : w.spin;
+        if (spin == 0.)
+          continue;
+        double arm = 0.;
+        for (const auto &end : {w.a, w.b})
+          arm = std::max(arm, std::hypot(end[0] - w.centre[0], end[1] - w.centre[1]));
+        const double most = std::min(0.1, std::sqrt(0.1 * smallest_diameter / arm)); // [rad]
+        n                 = std::max(n, std::ceil(std::abs(spin) * dt / most));
+      }
+    if (n > 1e6)
+      throw Divergence("A wall turns so fast that one step would need more than a million contact sub-steps.");
+    return static_cast<unsigned int>(n);
   }
 
   void WallGeometry::find_meetings()
@@ -195,33 +219,32 @@ namespace alluvium::grains
 
   void WallGeometry::move(const double dt)
   {
+    time += dt;
     if (!moving)
       return;
     bool moved = false;
     for (WallSegment &w : walls)
       {
+        std::array<double, 2> step = {{dt * w.velocity[0], dt * w.velocity[1]}};
+        if (w.spin == 0. && !w.rigid)
+          {
+            const double ex = w.b[0] - w.a[0], ey = w.b[1] - w.a[1], e2 = ex * ex + ey * ey;
+            const double along = e2 == 0. ? 0. : (w.velocity[0] * ex + w.velocity[1] * ey) / e2;
+            step               = {{dt * (w.velocity[0] - along * ex), dt * (w.velocity[1] - along * ey)}};
+          }
         if (w.spin != 0.)
           {
             const double c = std::cos(w.spin * dt), s = std::sin(w.spin * dt);
             for (auto *end : {&w.a, &w.b})
               {
                 const double x = (*end)[0] - w.centre[0], y = (*end)[1] - w.centre[1];
-                *end = {
-                  {w.centre[0] + c * x - s * y + dt * w.velocity[0], w.centre[1] + s * x + c * y + dt * w.velocity[1]}};
+                *end = {{w.centre[0] + c * x - s * y, w.centre[1] + s * x + c * y}};
               }
-            for (unsigned int d = 0; d < 2; ++d)
-              w.centre[d] += dt * w.velocity[d];
-            moved = true;
-            continue;
           }
-        const double ex = w.b[0] - w.a[0], ey = w.b[1] - w.a[1], e2 = ex * ex + ey * ey;
-        const double along = e2 == 0. ? 0. : (w.velocity[0] * ex + w.velocity[1] * ey) / e2;
-        const double dx = dt * (w.velocity[0] - along * ex), dy = dt * (w.velocity[1] - along * ey);
-        w.a[0] += dx;
-        w.a[1] += dy;
-        w.b[0] += dx;
-        w.b[1] += dy;
-        moved = moved || dx != 0. || dy != 0.;
+        for (auto *point : {&w.a, &w.b, &w.centre})
+          for (unsigned int d = 0; d < 2; ++d)
+            (*point)[d] += step[d];
+        moved = moved || w.spin != 0. || step[0] != 0. || step[1] != 0.;
       }
     if (moved)
       find_meetings();
@@ -230,14 +253,16 @@ namespace alluvium::grains
   bool
   WallGeometry::touch(const std::size_t k, const double x, const double y, const double r, ContactPoint &point) const
   {
-    const WallSegment &w      = walls[k];
-    const double       t      = project(w, x, y);
-    const double       near_x = w.a[0] + t * (w.b[0] - w.a[0]), near_y = w.a[1] + t * (w.b[1] - w.a[1]);
+    const WallSegment &w = walls[k];
+    if (!w.present)
+      return false;
+    const double t      = project(w, x, y);
+    const double near_x = w.a[0] + t * (w.b[0] - w.a[0]), near_y = w.a[1] + t * (w.b[1] - w.a[1]);
     for (const std::uint32_t m : meeting[k])
       {
         const WallSegment &other     = walls[m];
         const double       tolerance = same_point_tolerance * std::max(length_of(w), length_of(other));
-        if (distance_to(other, near_x, near_y) > tolerance)
+        if (!other.present || distance_to(other, near_x, near_y) > tolerance)
           continue; // what this segment has nearest is no point of the other one
         const double s = project(other, x, y);
         // The other segment has a nearer point, or the same one and comes first.

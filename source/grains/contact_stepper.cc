@@ -61,6 +61,7 @@ namespace alluvium::grains
     PluginChoice<Cohesion>      cohesion_choice;
     ContactWork                 work;
     Rest                        rest;
+    double                      time = 0.; // when the next step starts [s]
 
     ContactReport
     advance(GrainArrays &grains, const GrainLoads &loads, double dt, std::array<double, 2> gravity, double haste);
@@ -116,7 +117,8 @@ namespace alluvium::grains
   {
     ContactReport     report;
     const std::size_t n     = grains.n();
-    const auto       &walls = work.geometry.walls;
+    auto             &walls = work.geometry.walls;
+    walls.set_time(time);
     if (loads.fx.size() != n || loads.fy.size() != n || loads.drag.size() != n)
       throw std::logic_error("ContactStepper::advance: the loads have another size than the grains.");
     Assert(grains.y.size() == n && grains.radius.size() == n && grains.mass.size() == n && grains.vx.size() == n &&
@@ -153,10 +155,13 @@ namespace alluvium::grains
     rest.steps       = settings.rest_steps;
     rest.periodicity = work.geometry.periodicity;
     const Rest::Scales rest_scales{dt, scales.g, scales.mean_mass * scales.g, scales.d_min};
-    if (walls.largest_speed() == 0. && rest.holds(grains, loads, rest_scales))
+    if (walls.act(dt))
+      rest.forget();
+    else if (rest.holds(grains, loads, rest_scales))
       return rest.stand_still(loads, grains, work.all_touched);
 
-    const unsigned int steps = count_substeps(grains, loads, dt, settings.max_move * scales.d_min);
+    const unsigned int steps = std::max(count_substeps(grains, loads, dt, settings.max_move * scales.d_min),
+                                        walls.count_substeps(dt, scales.d_min));
     // Until the end, contact forces are impulses, summed over the sub-steps.
     grains.fcx.assign(n, 0.);
     grains.fcy.assign(n, 0.);
@@ -173,8 +178,11 @@ namespace alluvium::grains
         grains.fcy[k] /= dt;
       }
     for (std::size_t k = 0; k < walls.segments().size(); ++k)
-      for (unsigned int d = 0; d < 2; ++d)
-        report.wall_force[walls.segments()[k].name][d] += substep.wall_impulses()[k][d] / dt;
+      {
+        for (unsigned int d = 0; d < 2; ++d)
+          report.wall_force[walls.segments()[k].name][d] += substep.wall_impulses()[k][d] / dt;
+        report.wall_work += substep.wall_impulses()[k][2];
+      }
     rest.watch(grains, loads, rest_scales, work.all_touched, report);
     // grains that touch each other only, in mid-water, are slow, but not at rest
     if (rest.steps > 0 && report.n_quiet >= rest.steps && !all_are_supported(grains, work.archive()))
@@ -220,6 +228,11 @@ namespace alluvium::grains
     make_materials(settings(), walls);
     implementation->work.geometry.walls.set(std::move(walls));
     implementation->forget();
+  }
+
+  void ContactStepper::set_time(const double time)
+  {
+    implementation->time = time;
   }
 
   const std::vector<WallSegment> &ContactStepper::walls() const

@@ -21,6 +21,7 @@ namespace alluvium::grains
 
   void ContactSubstep::advance(const double h, const unsigned int level, ContactReport &report)
   {
+    work.geometry.walls.begin_substep(h);
     bodies.set(work.grains(), work.loads(), h, settings.rotation);
     set_margins(h);
     work.neighbours.rescale(h);
@@ -36,7 +37,8 @@ namespace alluvium::grains
                     work.neighbours.pairs,
                     bodies);
 
-    Outcome    outcome = solve(report);
+    const bool may_halve = level < settings.max_halvings;
+    Outcome    outcome   = solve(report, may_halve);
     bool       runaway = false, gain = false;
     const bool bounces = step.materials.bounces || step.materials.law;
     // Most impulses are no larger than what the masses alone allow, which needs no sums over all grains.
@@ -48,7 +50,7 @@ namespace alluvium::grains
         runaway           = is_runaway(largest, before, extra);
         gain              = bounces && has_gained_energy(problem, work.n_all(), before, extra);
       }
-    if ((!outcome.solution.converged || outcome.too_far || gain) && !runaway && level < settings.max_halvings)
+    if ((!outcome.solution.converged || outcome.too_far || gain) && !runaway && may_halve)
       {
         ++report.n_halvings;
         for (int half = 0; half < 2; ++half)
@@ -61,7 +63,7 @@ namespace alluvium::grains
           work.neighbours.drop_impulses();
         margins.gentle = true;
         slack          = work.slack();
-        outcome        = solve(report);
+        outcome        = solve(report, false);
       }
     if (!outcome.solution.converged)
       ++report.n_unconverged;
@@ -71,6 +73,8 @@ namespace alluvium::grains
       ContactBonds::update(work.grains(), work.geometry, *cohesion, work.neighbours.pairs);
     work.geometry.walls.move(h);
     work.neighbours.walls_moved(h * margins.wall_speed);
+    if (!outcome.solution.converged || outcome.too_far || runaway || gain)
+      look_for_crushed(report);
     ++report.n_substeps;
     report.residual     = std::max(report.residual, outcome.solution.residual);
     report.violation    = std::max(report.violation, outcome.solution.violation);
@@ -169,8 +173,11 @@ namespace alluvium::grains
   }
 
 
-  /** Solve with the contacts that are close or closing; if the solution makes others close, add them and solve on. */
-  ContactSubstep::Outcome ContactSubstep::solve(ContactReport &report)
+  /**
+   * Solve with the contacts that are close or closing; if the solution makes others close, add them and solve on. Where
+   * grains move too far, give up if that @p may_halve the sub-step.
+   */
+  ContactSubstep::Outcome ContactSubstep::solve(ContactReport &report, const bool may_halve)
   {
     // A bed at rest, or a cold one, is not on the move, however many sweeps it takes.
     const bool on_the_move =
@@ -203,7 +210,8 @@ namespace alluvium::grains
           throw Divergence("A grain velocity is not a finite number after the contact solve.");
         outcome.speed   = speeds[0];
         outcome.too_far = margins.h * speeds[0] > 2. * settings.max_move * step.scales.d_min;
-        if (!solution.converged || outcome.too_far || !misses_contacts(speeds))
+        // What is taken, however far grains move in it, must have all contacts on their way.
+        if (!solution.converged || (outcome.too_far && may_halve) || !misses_contacts(speeds))
           return outcome;
       }
   }
@@ -231,6 +239,68 @@ namespace alluvium::grains
     const bool found =
       active.add_violated(work.grains(), bodies, work.geometry, problem.discs, margins.h, work.neighbours.pairs);
     return search || any_over_ranks(work.communicator(), found);
+  }
+
+
+  /** After a sub-step that was not solved: who is in or behind whom? What was solved leaves no such contacts. */
+  void ContactSubstep::look_for_crushed(ContactReport &report) const
+  {
+    const GrainArrays       &grains = work.grains();
+    const auto              &walls  = work.geometry.walls;
+    const ContactCandidates &pairs  = work.neighbours.pairs;
+    Crush                    worst;
+    double                   partner = 0.; // the wall's number and 1, or the grain's beyond those
+    for (std::size_t k = 0; k < problem.contacts.size(); ++k)
+      {
+        const Contact &c = problem.contacts[k];
+        if (!problem.counts(c))
+          continue;
+        const bool         wall = active.is_wall(k, pairs);
+        const ContactPair &pair = active.pair(k, pairs);
+        const double       ri = grains.radius[c.i], rj = wall ? 0. : grains.radius[c.j];
+        ContactPoint       point{};
+        if (!wall)
+          point = touch(grains, work.geometry.periodicity, c.i, c.j);
+        else
+          {
+            const WallSegment &w = walls.segments()[pair.j];
+            const double       t = project(w, grains.x[c.i], grains.y[c.i]);
+            const double       x = w.a[0] + t * (w.b[0] - w.a[0]) - grains.x[c.i],
+                         y = w.a[1] + t * (w.b[1] - w.a[1]) - grains.y[c.i], distance = std::hypot(x, y);
+            point = {x, y, distance - ri};
+          }
+        const bool passed = point.nx * c.nx + point.ny * c.ny < 0.;
+        // what it touches at a joint may be another wall's
+        if (ContactPoint own; wall && !passed && !walls.touch(pair.j, grains.x[c.i], grains.y[c.i], ri, own))
+          continue;
+        const double gap   = passed ? -(point.gap + 2. * (ri + rj)) : point.gap;
+        const double depth = -gap / (2. * (wall ? ri : std::min(ri, rj)));
+        const double other = wall ? 1. + pair.j : 1. + walls.segments().size() + grains.id[c.j];
+        if (depth > worst.depth)
+          {
+            worst   = {depth, grains.id[c.i], 0, "", passed};
+            partner = other;
+          }
+      }
+    // one of those that are deepest on any rank: the one of the highest grain and partner
+    ContactCommunicator *const communicator = work.communicator();
+    const double               depth        = max_over_ranks(communicator, worst.depth);
+    const auto                 agree        = [&](const bool mine, const double number) {
+      return max_over_ranks(communicator, mine ? number : 0.);
+    };
+    const bool   mine  = worst.depth == depth && depth > 0.;
+    const double a     = agree(mine, 1. + worst.a);
+    const bool   first = mine && 1. + worst.a == a;
+    const double b     = agree(first, partner);
+    const bool   gone  = agree(first && partner == b, worst.passed ? 1. : 0.) > 0.;
+    if (depth <= report.crush.depth)
+      return;
+    report.crush         = {depth, static_cast<GrainId>(a - 1.), 0, "", gone};
+    const double n_walls = walls.segments().size();
+    if (b <= n_walls)
+      report.crush.wall = walls.segments()[static_cast<std::size_t>(b - 1.)].name;
+    else
+      report.crush.b = static_cast<GrainId>(b - 1. - n_walls);
   }
 
 

@@ -63,8 +63,9 @@ namespace alluvium::grains
     ContactReport report = last_report;
     report.n_sweeps = report.n_updates = 0;
     report.n_substeps = report.n_halvings = report.n_loose = 0;
-    report.max_velocity                                    = 0.;
-    report.at_rest                                         = true;
+    report.max_velocity = report.wall_work = 0.;
+    report.crush                           = {};
+    report.at_rest                         = true;
     return report;
   }
 

@@ -67,6 +67,7 @@ namespace alluvium::grains
     for (auto *f : {&forces.fx, &forces.fy, &forces.moment})
       f->assign(grains.n(), 0.);
     forces.wall.assign(geometry.walls.segments().size(), {{0., 0.}});
+    forces.wall_power = 0.;
 
     // What contact @p point of pair @p p exerts: normal and tangential force on its second partner.
     const auto force = [&](ContactPair           &p,
@@ -139,6 +140,7 @@ namespace alluvium::grains
         forces.moment[p.i] -= grains.radius[p.i] * tangential(f, point);
         forces.wall[p.j][0] += f[0];
         forces.wall[p.j][1] += f[1];
+        forces.wall_power -= f[0] * point.vx + f[1] * point.vy;
       }
   }
 
@@ -190,12 +192,15 @@ namespace alluvium::grains
       for (std::size_t k = 0; k < wall_impulse.size(); ++k)
         for (unsigned int d = 0; d < 2; ++d)
           wall_impulse[k][d] += 0.5 * h * forces.wall[k][d];
+      report.wall_work += 0.5 * h * forces.wall_power;
     };
 
+    geometry.walls.begin_substep(h);
     search_if_due();
     find_forces(grains, materials, geometry, 0., neighbours.pairs, before);
     for (unsigned int s = 0; s < steps; ++s)
       {
+        geometry.walls.begin_substep(h);
         kick(before);
         for (std::size_t k = 0; k < n; ++k)
           {

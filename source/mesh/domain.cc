@@ -79,13 +79,6 @@ namespace alluvium::mesh
         }
       return result;
     }
-
-    double distance_to(const grains::WallSegment &side, const double x, const double y)
-    {
-      const double ex = side.b[0] - side.a[0], ey = side.b[1] - side.a[1];
-      const double t = std::clamp(((x - side.a[0]) * ex + (y - side.a[1]) * ey) / (ex * ex + ey * ey), 0., 1.);
-      return std::hypot(side.a[0] + t * ex - x, side.a[1] + t * ey - y);
-    }
   } // namespace
 
 
@@ -210,7 +203,8 @@ namespace alluvium::mesh
     for (const auto &part : named_parts)
       all_sides = divided(all_sides, part);
 
-    for (const auto &name : open_to_grains_names())
+    open_names = Utilities::split_string_list(open_to_grains);
+    for (const auto &name : open_names)
       {
         std::string known;
         for (const auto &[other, id] : ids)
@@ -241,16 +235,9 @@ namespace alluvium::mesh
 
 
   template <int dim>
-  std::vector<std::string> Domain<dim>::open_to_grains_names() const
-  {
-    return Utilities::split_string_list(open_to_grains);
-  }
-
-
-  template <int dim>
   std::string Domain<dim>::left_through(const std::array<double, 2> &point) const
   {
-    const auto open = open_to_grains_names();
+    const auto &open = open_names;
     if (open.empty())
       return "";
     const double x = point[0], y = point[1];
@@ -262,7 +249,7 @@ namespace alluvium::mesh
       for (const auto &s : all_sides)
         if ((std::find(open.begin(), open.end(), s.name) != open.end()) == is_open)
           {
-            const double distance = distance_to(s, x, y);
+            const double distance = grains::distance_to(s, x, y);
             if (distance < (1. - 1e-9) * nearest)
               {
                 nearest = distance;
@@ -286,7 +273,7 @@ namespace alluvium::mesh
     bool inside = false;
     for (const grains::WallSegment &side : all_sides)
       {
-        if (distance_to(side, x, y) <= tolerance)
+        if (grains::distance_to(side, x, y) <= tolerance)
           return true;
         // a ray to the right crosses the boundary an odd number of times; both faces of a crack count
         if ((side.a[1] > y) != (side.b[1] > y) &&

@@ -170,5 +170,6 @@ namespace alluvium::observers
 
 
   template void FieldSeries::write<0>(DataOutInterface<0, 2> &, const ReferenceCell &, const double);
+  template void FieldSeries::write<1>(DataOutInterface<1, 2> &, const ReferenceCell &, const double);
   template void FieldSeries::write<2>(DataOutInterface<2, 2> &, const ReferenceCell &, const double);
 } // namespace alluvium::observers

@@ -18,6 +18,9 @@ namespace alluvium::run
   namespace
   {
     const std::string smaller_step = "Try a smaller Time/Time step";
+    const std::string more_room    = "Something presses grains into a place that is too small for them, or they are "
+                                     "too fast for the time step. " +
+                                  smaller_step + ", slower walls, or more room.";
 
     /** Number of grain @p id in the arrays: some may have left. */
     std::size_t number_of(const Model &m, const grains::GrainId id)
@@ -109,11 +112,29 @@ namespace alluvium::run
                 "diameters",
                 {{m.grains.x[a], m.grains.y[a]}},
                 "grain " + std::to_string(o.a),
-                "Something presses grains into a place that is too small for them, or they are too fast for the time "
-                "step. " +
-                  smaller_step + ", slower walls, or more room."};
+                more_room};
       }
     return {};
+  }
+
+
+  Sign DivergenceMonitor::judge_contacts(const Model &m) const
+  {
+    const grains::Crush &crush = m.contact_report.crush;
+    if (!m.grains_move || !(crush.depth > largest_penetration))
+      return {};
+    const std::size_t a    = number_of(m, crush.a);
+    const std::string name = "grain " + std::to_string(crush.a), partner = crush.wall.empty()
+                                                                             ? "grain " + std::to_string(crush.b)
+                                                                             : "the wall '" + crush.wall + "'";
+    return {crush.passed ? name + " has been pressed through " + partner + ", by"
+                         : name + " and " + partner + " overlap by",
+            crush.depth,
+            largest_penetration,
+            "diameters",
+            {{m.grains.x[a], m.grains.y[a]}},
+            name,
+            more_room};
   }
 
 
@@ -170,10 +191,10 @@ namespace alluvium::run
   }
 
 
-  std::string in_words(const Sign &sign, const Model &m)
+  std::string in_words(const Sign &sign, const unsigned int step, const double time)
   {
     std::ostringstream text;
-    text << "The run has diverged in step " << m.n_steps << ", t = " << m.time << " s: " << sign.what;
+    text << "The run has diverged in step " << step << ", t = " << time << " s: " << sign.what;
     if (std::isfinite(sign.value))
       text << ' ' << sign.value << ' ' << sign.unit << " (bound " << sign.bound << ")";
     if (!sign.near.empty())

@@ -1,5 +1,6 @@
 #include <alluvium/fluid/line_average.h>
 #include <alluvium/observers/fluid_output.h>
+#include <alluvium/observers/wall_output.h>
 #include <alluvium/run/bed_flow.h>
 #include <alluvium/run/model.h>
 #include <alluvium/run/output.h>
@@ -54,7 +55,7 @@ namespace alluvium::run
     output_folder.add_parameters(prm);
     choice.add_parameters(prm,
                           "Observers",
-                          "head, motion, support, flux, bed, audit, leavers",
+                          "head, motion, support, flux, bed, audit, leavers, walls",
                           "What to measure; those that a scene gives nothing to are left out.",
                           true);
     prm.leave_subsection();
@@ -110,6 +111,7 @@ namespace alluvium::run
     summary        = std::make_unique<observers::Summary>(output_folder.file("summary.json"), model.communicator);
     grain_pictures = std::make_unique<observers::FieldSeries>(output_folder.path(), "grains", hdf5, model.communicator);
     fluid_pictures = std::make_unique<observers::FieldSeries>(output_folder.path(), "fluid", hdf5, model.communicator);
+    wall_pictures  = std::make_unique<observers::FieldSeries>(output_folder.path(), "walls", hdf5, model.communicator);
     statistics->add_column("time_s");
     for (auto *observer : observing)
       observer->add_columns(snapshot(), *statistics);
@@ -232,6 +234,12 @@ namespace alluvium::run
   {
     const auto timer = model.timers.scope("pictures");
     model.store.output([&](auto &data) { grain_pictures->write<0>(data, ReferenceCells::Vertex, model.time); });
+    // what stands still and is the boundary is seen in the fluid's pictures, or known
+    const auto &walls = model.contacts.walls();
+    if (std::any_of(walls.begin(), walls.end(), [&](const auto &wall) {
+          return grains::ever_acts(wall) || model.domain.boundary_ids().count(wall.name) == 0;
+        }))
+      observers::write_walls(*wall_pictures, walls, model.time, model.communicator);
     if (model.has_fluid)
       observers::write_fluid(*fluid_pictures,
                              model.space,
@@ -359,6 +367,7 @@ namespace alluvium::run
   {
     state["grain pictures"] = grain_pictures->state();
     state["fluid pictures"] = fluid_pictures->state();
+    state["wall pictures"]  = wall_pictures->state();
     for (const auto &name : Utilities::split_string_list(choice.name()))
       choice.get(name).save(state["observers"][name]);
     state["drag impulse"] = {drag_impulse, drag_impulse_outside};
@@ -372,6 +381,8 @@ namespace alluvium::run
   {
     grain_pictures->resume(state.at("grain pictures"));
     fluid_pictures->resume(state.at("fluid pictures"));
+    if (state.contains("wall pictures"))
+      wall_pictures->resume(state.at("wall pictures"));
     for (const auto &name : Utilities::split_string_list(choice.name()))
       if (!state.at("observers").at(name).is_null())
         choice.get(name).load(state.at("observers").at(name));

@@ -34,7 +34,8 @@ namespace alluvium::run
     bool is_ignored(const std::string &name, const bool never_refines, const bool adapts)
     {
       if (begins_with(name, "Grains/"))
-        return name != "Grains/Fixed" && name != "Grains/Extra walls" && name != "Grains/Motion of walls";
+        return name != "Grains/Fixed" && name != "Grains/Extra walls" && name != "Grains/Motion of walls" &&
+               name != "Grains/Presence of walls";
       if (begins_with(name, "Mesh refinement/"))
         return never_refines || name == "Mesh refinement/Coarsest cell size" ||
                (!adapts && name != "Mesh refinement/Interval");

@@ -100,13 +100,27 @@ namespace alluvium::run
     const auto timer = model.timers.scope("divergence monitor");
     measures         = meter.measure(model);
     const Sign sign  = monitor.judge(model, measures);
-    if (sign.what.empty())
-      return;
+    if (!sign.what.empty())
+      raise(sign, model.n_steps, model.time);
+  }
+
+
+  void RunGuard::judge_contacts()
+  {
+    const Sign sign = monitor.judge_contacts(model);
+    if (!sign.what.empty())
+      raise(sign, model.n_steps + 1, model.time + model.time_step);
+  }
+
+
+  /** End the run, or warn. */
+  void RunGuard::raise(const Sign &sign, const unsigned int step, const double time)
+  {
     if (!monitor.stops() && std::isfinite(sign.value))
       {
         model.warnings.add("A step cannot be believed, which ends a run unless Divergence/Stop = false. First: " +
-                             in_words(sign, model),
-                           model.time);
+                             in_words(sign, step, time),
+                           time);
         return;
       }
     output.add_to_summary("divergence/sign", sign.what);
@@ -116,12 +130,15 @@ namespace alluvium::run
     output.add_to_summary("divergence/x_m", sign.point[0]);
     output.add_to_summary("divergence/y_m", sign.point[1]);
     output.add_to_summary("divergence/near", sign.near);
-    throw Divergence(in_words(sign, model));
+    has_judged = true;
+    throw Divergence(in_words(sign, step, time));
   }
 
 
   Divergence RunGuard::with_place(const Divergence &error) const
   {
+    if (has_judged)
+      return error;
     const Place        place = fastest_grain(model);
     std::ostringstream text;
     text << "The run has diverged in step " << model.n_steps + 1 << ", from t = " << model.time

@@ -65,9 +65,52 @@ namespace alluvium::run
           std::string text      = name + ": ";
           if (m.has_fluid && condition != m.boundary_conditions.all().end())
             text += in_words(condition->second) + ", ";
-          lines.push_back(text + (walls.count(name) ? "a wall for grains" : "open to grains"));
+          const auto &open  = m.domain.open_to_grains_names();
+          const bool  opens = std::count(open.begin(), open.end(), name) > 0;
+          lines.push_back(text + (!walls.count(name) ? "open to grains"
+                                  : opens            ? "a wall for grains at times"
+                                                     : "a wall for grains"));
         }
       return lines;
+    }
+
+    std::string interval(const double from, const double to)
+    {
+      return (std::isfinite(from) ? " from " + number(from) + " s" : "") +
+             (std::isfinite(to) ? (std::isfinite(from) ? " to " : " until ") + number(to) + " s" : "");
+    }
+
+    std::string in_words(const grains::WallMotion &motion, const bool rigid)
+    {
+      std::string text;
+      for (const auto &phase : motion.phases)
+        {
+          if (phase.at_time)
+            text += ", moves by a formula";
+          else
+            {
+              const auto &v = phase.velocity;
+              if (v[0] != 0. || v[1] != 0.)
+                text += ", moves at (" + number(v[0]) + ", " + number(v[1]) + ") m/s";
+              if (v[2] != 0.)
+                text += ", turns at " + number(v[2]) + " rad/s";
+            }
+          text += interval(phase.from, phase.to);
+        }
+      if (rigid)
+        text += ", as a whole";
+      if (motion.comes_or_goes())
+        text += ", there" + interval(motion.present_from, motion.present_to);
+      return text;
+    }
+
+    bool is_belt(const grains::WallSegment &wall)
+    {
+      const auto &phases = wall.motion->phases;
+      return !phases.empty() && !wall.rigid && std::all_of(phases.begin(), phases.end(), [&](const auto &phase) {
+        const auto &v = phase.velocity;
+        return !phase.at_time && v[2] == 0. && (wall.b[0] - wall.a[0]) * v[1] == (wall.b[1] - wall.a[1]) * v[0];
+      });
     }
 
     /** Walls that are no boundaries, and those that move. */
@@ -78,15 +121,14 @@ namespace alluvium::run
       std::size_t              n = 0;
       for (const auto &wall : m.contacts.walls())
         {
-          const bool moves    = wall.velocity[0] != 0. || wall.velocity[1] != 0. || wall.spin != 0.;
+          const bool moves    = grains::ever_acts(wall);
           const bool boundary = m.domain.boundary_ids().count(wall.name) > 0;
           if ((boundary && !moves) || ++n > most)
             continue;
           std::string text = wall.name + ": (" + number(wall.a[0]) + ", " + number(wall.a[1]) + ") -> (" +
                              number(wall.b[0]) + ", " + number(wall.b[1]) + ") m";
-          if (moves)
-            text += ", moves at (" + number(wall.velocity[0]) + ", " + number(wall.velocity[1]) + ") m/s" +
-                    (wall.spin != 0. ? ", turns at " + number(wall.spin) + " rad/s" : "");
+          if (wall.motion)
+            text += in_words(*wall.motion, wall.rigid) + (is_belt(wall) ? ", as a belt: it stays where it is" : "");
           lines.push_back(text + (boundary ? "" : ", for grains only"));
         }
       if (n > most)

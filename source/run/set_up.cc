@@ -130,10 +130,7 @@ namespace alluvium::run
       while (m.contact_report.n_quiet == ++n_steps_tried);
       m.touched = m.contacts.touched();
       // moving walls start where they are said to; where none moves, the rest that was found is kept
-      const auto &walls = m.contacts.walls();
-      if (std::any_of(walls.begin(), walls.end(), [](const auto &w) {
-            return w.velocity[0] != 0. || w.velocity[1] != 0. || w.spin != 0.;
-          }))
+      if (m.contacts.memory().wall_positions != memory.wall_positions)
         m.contacts.restore(memory);
       m.grains.fcx = trial.fcx;
       m.grains.fcy = trial.fcy;

@@ -210,14 +210,8 @@ namespace alluvium::run
         work += reduced * (m.gravity[0] * dx + m.gravity[1] * dy) + volume * (excess[0] * dx + excess[1] * dy);
       }
     work += m.time_step * prescribed;
-    for (const auto &wall : m.contacts.walls())
-      {
-        const auto   a = wall.velocity_at(wall.a[0], wall.a[1]), b = wall.velocity_at(wall.b[0], wall.b[1]);
-        const double speed = std::max(std::hypot(a[0], a[1]), std::hypot(b[0], b[1]));
-        const auto   force = m.contact_report.wall_force.find(wall.name);
-        if (speed > 0. && force != m.contact_report.wall_force.end())
-          work += m.time_step * speed * std::hypot(force->second[0], force->second[1]);
-      }
+    if (m.grains_move)
+      work += m.contact_report.wall_work;
     return work;
   }
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <iterator>
 #include <sstream>
 
 namespace alluvium::scene
@@ -56,53 +57,6 @@ namespace alluvium::scene
         MPI_Bcast(&numbers[begin], static_cast<int>(std::min(most, n - begin)), MPI_DOUBLE, 0, communicator);
       return numbers;
     }
-
-    /** Read numbers separated by commas; false if they are none. */
-    bool read_numbers(const std::string &text, std::vector<double> &numbers)
-    {
-      for (const std::string &item : Utilities::split_string_list(text, ','))
-        try
-          {
-            std::size_t length = 0;
-            numbers.push_back(std::stod(item, &length));
-            if (length != item.size() || !std::isfinite(numbers.back()))
-              return false;
-          }
-        catch (const std::exception &)
-          {
-            return false;
-          }
-      return true;
-    }
-
-    /** Whether a part of @p wall is in the domain's bounding box, or on its sides. */
-    bool reaches_into(const mesh::Domain<2> &domain, const grains::WallSegment &wall)
-    {
-      double first = 0., last = 1.; // the part of the wall between both pairs of sides
-      for (unsigned int d = 0; d < 2; ++d)
-        {
-          const double tolerance = 1e-9 * (domain.upper()[d] - domain.lower()[d]);
-          const double low = domain.lower()[d] - tolerance, high = domain.upper()[d] + tolerance;
-          const double a = wall.a[d], e = wall.b[d] - wall.a[d];
-          if (e == 0. && (a < low || a > high))
-            return false;
-          if (e != 0.)
-            {
-              first = std::max(first, std::min((low - a) / e, (high - a) / e));
-              last  = std::min(last, std::max((low - a) / e, (high - a) / e));
-            }
-        }
-      return first <= last;
-    }
-
-    /** Whether walls of this name move along themselves only. */
-    bool
-    is_belt(const std::vector<grains::WallSegment> &walls, const std::string &name, const std::vector<double> &motion)
-    {
-      return motion.size() == 2 && std::all_of(walls.begin(), walls.end(), [&](const grains::WallSegment &w) {
-               return w.name != name || (w.b[0] - w.a[0]) * motion[1] == (w.b[1] - w.a[1]) * motion[0];
-             });
-    }
   } // namespace
 
 
@@ -137,100 +91,14 @@ namespace alluvium::scene
                       "diameter; more is an "
                       "error.",
                       Patterns::Double(0.));
-    prm.add_parameter("Extra walls",
-                      extra_walls,
-                      "Walls inside the domain that only the grains see, as `x1, y1 -> x2, y2; ...` [m], or with names "
-                      "as `name: x1, y1 -> x2, y2; ...`; several may share a name.");
-    prm.add_parameter(
-      "Motion of walls",
-      wall_motion,
-      "Walls that move, by name, as `name: vx, vy; ...` [m/s], or `name: vx, vy, spin, x, y; ...` for one "
-      "that turns at `spin` [rad/s], anticlockwise, about the point (x, y) [m]. A wall that does not turn "
-      "moves by the part of its velocity across it; the part along it is that of a belt. The fluid sees "
-      "nothing of this.");
+    wall_setup.add_parameters(prm);
     prm.leave_subsection();
   }
 
 
   std::vector<grains::WallSegment> GrainSetup::walls(const mesh::Domain<2> &domain) const
   {
-    std::vector<grains::WallSegment> extra;
-    for (const std::string &item : Utilities::split_string_list(extra_walls, ';'))
-      {
-        const auto          colon = item.find(':');
-        const std::string   ends  = colon == std::string::npos ? item : item.substr(colon + 1);
-        const auto          arrow = ends.find("->");
-        std::vector<double> a, b;
-        check_user(
-          arrow != std::string::npos && read_numbers(ends.substr(0, arrow), a) &&
-            read_numbers(ends.substr(arrow + 2), b) && a.size() == 2 && b.size() == 2 && a != b,
-          "Grains/Extra walls: expected `x1, y1 -> x2, y2; ...` or `name: x1, y1 -> x2, y2; ...` in metres, got '" +
-            item + "'.");
-        extra.push_back({{{a[0], a[1]}},
-                         {{b[0], b[1]}},
-                         {{0., 0.}},
-                         colon == std::string::npos ? "extra wall " + std::to_string(extra.size() + 1)
-                                                    : Utilities::trim(item.substr(0, colon))});
-      }
-    for (const grains::WallSegment &wall : extra)
-      check_user(moves(wall.name) || reaches_into(domain, wall),
-                 "Grains/Extra walls: '" + wall.name + "' from (" + number(wall.a[0]) + ", " + number(wall.a[1]) +
-                   ") to (" + number(wall.b[0]) + ", " + number(wall.b[1]) +
-                   ") m is outside the domain, which reaches from (" + number(domain.lower()[0]) + ", " +
-                   number(domain.lower()[1]) + ") to (" + number(domain.upper()[0]) + ", " + number(domain.upper()[1]) +
-                   ") m. Lengths are in metres.");
-    // Positions are kept in the box: its own walls end where it does, only what stands in it shows again beside it.
-    std::vector<grains::WallSegment> result = domain.walls();
-    for (const auto &wall : grains::with_images(extra, domain.periodicity()))
-      result.push_back(wall);
-    move_walls(result, domain.periodicity());
-    return result;
-  }
-
-
-  bool GrainSetup::moves(const std::string &name) const
-  {
-    const auto items = Utilities::split_string_list(wall_motion, ';');
-    return std::any_of(items.begin(), items.end(), [&](const std::string &item) {
-      return Utilities::trim(item.substr(0, item.find(':'))) == name;
-    });
-  }
-
-
-  void GrainSetup::move_walls(std::vector<grains::WallSegment> &walls, const grains::Periodicity &periodicity) const
-  {
-    for (const std::string &item : Utilities::split_string_list(wall_motion, ';'))
-      {
-        const auto          colon = item.find(':');
-        std::vector<double> x;
-        check_user(colon != std::string::npos && read_numbers(item.substr(colon + 1), x) &&
-                     (x.size() == 2 || x.size() == 5),
-                   "Grains/Motion of walls: expected `name: vx, vy; ...` or `name: vx, vy, spin, x, y; ...`, got '" +
-                     item + "'.");
-        const std::string name = Utilities::trim(item.substr(0, colon));
-        check_user(!periodicity.any() ||
-                     (x.size() == 2 && (x[0] == 0. || periodicity.length[0] == 0.) &&
-                      (x[1] == 0. || periodicity.length[1] == 0.)) ||
-                     is_belt(walls, name, x),
-                   "Grains/Motion of walls: '" + name + "' would leave a domain that is periodic; belts do not.");
-        std::string known;
-        bool        found = false;
-        for (auto &wall : walls)
-          {
-            if (known.find("'" + wall.name + "'") == std::string::npos)
-              known += (known.empty() ? "'" : ", '") + wall.name + "'";
-            if (wall.name != name)
-              continue;
-            found         = true;
-            wall.velocity = {{x[0], x[1]}};
-            if (x.size() == 5)
-              {
-                wall.spin   = x[2];
-                wall.centre = {{x[3], x[4]}};
-              }
-          }
-        check_user(found, "Grains/Motion of walls: there is no wall '" + name + "'. The walls are " + known + ".");
-      }
+    return wall_setup.walls(domain);
   }
 
 
@@ -282,6 +150,9 @@ namespace alluvium::scene
                                        const std::array<double, 2>            &gravity,
                                        const std::string                      &directory) const
   {
+    std::vector<grains::WallSegment> standing; // at t = 0
+    std::copy_if(
+      walls.begin(), walls.end(), std::back_inserter(standing), [](const auto &wall) { return wall.present; });
     // one rank makes them, as plain numbers for all
     constexpr unsigned int    n_numbers = 7;
     const std::vector<double> numbers =
@@ -291,7 +162,7 @@ namespace alluvium::scene
                             make_deposit(deposit.get(),
                                          {{{domain.lower()[0], domain.lower()[1]}},
                                           {{domain.upper()[0], domain.upper()[1]}},
-                                          walls,
+                                          standing,
                                           density,
                                           gravity,
                                           directory,

@@ -63,7 +63,7 @@ TEST(DivergenceMonitor, NoticesARunAwayWithinSomeSteps)
   EXPECT_EQ(sign.near, "grain 0");
   EXPECT_GT(sign.value, sign.bound);
   EXPECT_FALSE(scene.monitor.is_calm());
-  const std::string text = in_words(sign, scene.model);
+  const std::string text = in_words(sign, scene.model.n_steps, scene.model.time);
   EXPECT_NE(text.find("energy"), std::string::npos) << text;
   EXPECT_NE(text.find("Try a smaller Time/Time step"), std::string::npos) << text;
 }

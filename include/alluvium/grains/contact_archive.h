@@ -20,7 +20,8 @@ namespace alluvium::grains
     double             dt = 0.; // of that sub-step [s]
     std::vector<Entry> entries;
 
-    /** Where walls that move have got to, a.x a.y b.x b.y and the centre, one after the other; empty if none moves. */
+    /** Where walls that move have got to, a.x a.y b.x b.y, the centre, and 1 if they are present, one after the other;
+     * empty if none moves. */
     std::vector<double> wall_positions;
   };
 } // namespace alluvium::grains

@@ -14,7 +14,7 @@ namespace alluvium::grains
   {
   public:
     /** Start a step. */
-    void reset(std::size_t n_walls) { on_wall.assign(n_walls, {{0., 0.}}); }
+    void reset(std::size_t n_walls) { on_wall.assign(n_walls, {{0., 0., 0.}}); }
 
     /**
      * Final velocities from the impulses of @p problem themselves, so that momentum is balanced to round-off; positions
@@ -29,14 +29,14 @@ namespace alluvium::grains
                       bool                    rotation,
                       ContactWork            &work);
 
-    /** What each wall segment got in the step up to now [N s/m]. */
-    const std::vector<std::array<double, 2>> &wall_impulses() const { return on_wall; }
+    /** What each wall segment got in the step up to now [N s/m], and the work that it did [J/m]. */
+    const std::vector<std::array<double, 3>> &wall_impulses() const { return on_wall; }
 
   private:
     struct WallImpulse
     {
       std::size_t           wall;
-      std::array<double, 2> impulse;
+      std::array<double, 3> impulse; // and work
     };
 
     /** On a grain in a sub-step, over the radius what turns it [N s/m]. */
@@ -44,7 +44,7 @@ namespace alluvium::grains
     {
       double x = 0., y = 0., spin = 0., none = 0.;
     };
-    std::vector<std::array<double, 2>> on_wall;
+    std::vector<std::array<double, 3>> on_wall;
     std::vector<WallImpulse>           from_contacts; // of a sub-step
     std::vector<Impulse>               on_grain;
 

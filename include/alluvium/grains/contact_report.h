@@ -1,11 +1,22 @@
 #pragma once
 
+#include <alluvium/grains/grain_arrays.h>
+
 #include <array>
 #include <map>
 #include <string>
 
 namespace alluvium::grains
 {
+  /** Two that were found deep in one another in a sub-step that was not solved, or on the wrong side of each other. */
+  struct Crush
+  {
+    double      depth = 0.; // over the smaller diameter; 0: there are none
+    GrainId     a = 0, b = 0;
+    std::string wall;           // if that is the partner, in place of b
+    bool        passed = false; // through it
+  };
+
   /** What a contact step did. */
   struct ContactReport
   {
@@ -25,5 +36,7 @@ namespace alluvium::grains
     double residual = 0., violation = 0.;               // the largest of all sub-steps; see ContactTolerance
     double max_penetration = 0., mean_penetration = 0.; // over the overlapping contacts at the end [m]
     double max_velocity = 0.;                           // of any grain at the end [m/s]
+    double wall_work    = 0.;                           // of walls that move on the grains, in the step [J/m]
+    Crush  crush;                                       // the deepest of the step
   };
 } // namespace alluvium::grains

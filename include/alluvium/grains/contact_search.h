@@ -41,17 +41,29 @@ namespace alluvium::grains
     void                            set(std::vector<WallSegment> segments);
     const std::vector<WallSegment> &segments() const { return walls; }
 
+    /** When the next step starts [s]: walls may depend on it. */
+    void set_time(const double t) { time = t; }
+
+    /** Take velocities and presence of the walls for a sub-step of length @p h [s] that starts now. */
+    void begin_substep(double h);
+
     /**
-     * Move the walls on by @p dt [s]. A wall that does not rotate moves by the normal part of its velocity only: the
-     * tangential part is that of a belt, which drags grains along and leaves the wall where it is.
+     * Move the walls on by @p dt [s]. A wall that is not rigid and does not rotate moves by the normal part of its
+     * velocity only: the tangential part is that of a belt, which drags grains along and leaves the wall where it is.
      */
     void move(double dt);
+
+    /** Does any wall move, appear or vanish within @p dt [s] from now, or since the last sub-step? */
+    bool act(double dt) const;
+
+    /** Into how many sub-steps walls that rotate divide a step of @p dt [s]. */
+    unsigned int count_substeps(double dt, double smallest_diameter) const;
 
     /** Where the walls are, as in ContactArchive; and to put them there. */
     std::vector<double> positions() const;
     void                place(const std::vector<double> &positions);
 
-    /** The largest speed of any wall [m/s]. */
+    /** The largest speed of any wall that is present [m/s]. */
     double largest_speed() const;
 
     /** The contact of a disc at (x, y) with radius r and segment @p k; false if another segment owns it. */
@@ -60,7 +72,8 @@ namespace alluvium::grains
   private:
     std::vector<WallSegment>                walls;
     std::vector<std::vector<std::uint32_t>> meeting; // the other segments that a segment has points in common with
-    bool                                    moving = false;
+    bool                                    moving = false; // some act at some time
+    double                                  time   = 0.;    // [s]
 
     void find_meetings();
   };

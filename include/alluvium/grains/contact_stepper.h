@@ -57,6 +57,9 @@ namespace alluvium::grains
     void                            set_walls(std::vector<WallSegment> walls);
     const std::vector<WallSegment> &walls() const; // where they are now, if they move
 
+    /** When the next advance() starts [s]: walls may depend on it, nothing else does. */
+    void set_time(double time);
+
     /**
      * Share the work of advance() with the other ranks of @p communicator; advance(), forces(), archive() and
      * set_communicator() are collective then. Every rank must have the same parameters and walls. Soft spheres and

@@ -44,8 +44,8 @@ namespace alluvium::grains
     /** Fill what @p report says of the end of the step. */
     void finish(ContactReport &report);
 
-    /** What each wall segment got in the step up to now [N s/m]. */
-    const std::vector<std::array<double, 2>> &wall_impulses() const { return motion.wall_impulses(); }
+    /** See ContactMotion. */
+    const std::vector<std::array<double, 3>> &wall_impulses() const { return motion.wall_impulses(); }
 
   private:
     /** What a solve came to. */
@@ -77,7 +77,8 @@ namespace alluvium::grains
     void             search_if_due();
     void             set_problem(bool keep);
     ContactTolerance tolerance(bool on_the_move) const;
-    Outcome          solve(ContactReport &report);
+    Outcome          solve(ContactReport &report, bool may_halve);
+    void             look_for_crushed(ContactReport &report) const;
     bool             misses_contacts(const std::array<double, 2> &speeds);
     void             find_weights();
   };

@@ -55,8 +55,9 @@ namespace alluvium::grains
   private:
     struct Forces
     {
-      std::vector<double>                fx, fy, moment; // on the grains [N/m], [N]
-      std::vector<std::array<double, 2>> wall;           // on the wall segments [N/m]
+      std::vector<double>                fx, fy, moment;  // on the grains [N/m], [N]
+      std::vector<std::array<double, 2>> wall;            // on the wall segments [N/m]
+      double                             wall_power = 0.; // of walls on grains [W/m]
     };
 
     void   find_forces(const GrainArrays      &grains,

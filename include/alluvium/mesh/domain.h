@@ -89,7 +89,7 @@ namespace alluvium::mesh
     const std::vector<grains::WallSegment> &sides() const { return all_sides; }
 
     /** Names of the boundaries that are open to grains. */
-    std::vector<std::string> open_to_grains_names() const;
+    const std::vector<std::string> &open_to_grains_names() const { return open_names; }
 
     /**
      * Whether a grain with its centre at @p point has left the domain, where boundaries are open to grains: the name of
@@ -120,6 +120,7 @@ namespace alluvium::mesh
     bool                                              triangles = false;
     std::map<std::string, dealii::types::boundary_id> ids;
     std::vector<grains::WallSegment>                  wall_segments, all_sides;
+    std::vector<std::string>                          open_names;
     std::vector<geometry::BoundaryPart>               named_parts;
   };
 } // namespace alluvium::mesh

@@ -42,6 +42,9 @@ namespace alluvium::run
     /** Whether the last step was good beyond doubt: what a checkpoint may be made of. */
     bool is_calm() const { return calm; }
 
+    /** Judge the contacts of a step that is not at its end: grains may be where they cannot be kept. */
+    Sign judge_contacts(const Model &model) const;
+
     /** For checkpoints: what it remembers from step to step; of a checkpoint without that, nothing. */
     void save(nlohmann::ordered_json &state) const;
     void load(const nlohmann::ordered_json &state);
@@ -65,6 +68,6 @@ namespace alluvium::run
     bool   calm                   = true;
   };
 
-  /** What the user reads: what, where and when, by what sign, and what to try. */
-  std::string in_words(const Sign &sign, const Model &model);
+  /** What the user reads: what, where and in what step, that ended at @p time [s], by what sign, and what to try. */
+  std::string in_words(const Sign &sign, unsigned int step, double time);
 } // namespace alluvium::run

@@ -94,7 +94,7 @@ namespace alluvium::run
     std::vector<dealii::types::boundary_id> head_ids; // of two boundaries, if the head is between them
     std::unique_ptr<observers::Statistics>  statistics;
     std::unique_ptr<observers::Summary>     summary;
-    std::unique_ptr<observers::FieldSeries> fluid_pictures, grain_pictures;
+    std::unique_ptr<observers::FieldSeries> fluid_pictures, grain_pictures, wall_pictures;
 
     // impulses of the fluid on all grains, and on those outside the range of the drag law [N s/m]
     double drag_impulse = 0., drag_impulse_outside = 0.;

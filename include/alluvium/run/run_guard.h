@@ -51,6 +51,9 @@ namespace alluvium::run
     /** Throw a Divergence if the step that the model has taken cannot be believed. Collective. */
     void judge();
 
+    /** The same within a step, when its contacts are solved. Collective. */
+    void judge_contacts();
+
     /** @p error, thrown within a step, with when and where. */
     Divergence with_place(const Divergence &error) const;
 
@@ -67,6 +70,7 @@ namespace alluvium::run
     void fail(const Failure &failure);
 
   private:
+    void        raise(const Sign &sign, unsigned int step, double time);
     void        write_checkpoint();
     void        write_good_state();
     void        write_provisional_summary();
@@ -82,7 +86,8 @@ namespace alluvium::run
     StepMeasures      measures;
     double            interval        = 0.; // of checkpoints [s]
     bool              is_due          = false;
-    long              checkpoint_step = -1; // of the one in the folder
+    bool              has_judged      = false; // that the step failed: the error has its place
+    long              checkpoint_step = -1;    // of the one in the folder
     MPI_Comm          of_failures     = MPI_COMM_NULL;
 
     std::chrono::steady_clock::time_point last_summary{};

@@ -3,6 +3,7 @@
 #include <alluvium/grains/deposit.h>
 #include <alluvium/grains/grain_arrays.h>
 #include <alluvium/mesh/domain.h>
+#include <alluvium/scene/wall_setup.h>
 #include <alluvium/utilities/plugin.h>
 
 #include <mpi.h>
@@ -16,10 +17,7 @@ namespace alluvium::scene
   public:
     void add_parameters(dealii::ParameterHandler &prm);
 
-    /**
-     * Walls of the domain plus the extra ones, with their images if the domain is periodic, and how they move. Throws
-     * UserError for a wall or a motion that cannot be read.
-     */
+    /** See WallSetup. */
     std::vector<grains::WallSegment> walls(const mesh::Domain<2> &domain) const;
 
     /**
@@ -41,15 +39,14 @@ namespace alluvium::scene
     double radius_factor() const { return last_factor; }
 
   private:
-    bool   moves(const std::string &wall) const; // by the parameter Motion of walls
-    void   move_walls(std::vector<grains::WallSegment> &walls, const grains::Periodicity &periodicity) const;
     double find_radius_factor(const grains::GrainArrays &grains,
                               const mesh::Domain<2>     &domain,
                               const geometry::Upright   &upright) const;
 
+    WallSetup                     wall_setup;
     PluginChoice<grains::Deposit> deposit;
     double                        density = 2650., factor = 1., packing = 0., overlap_tolerance = 0.01;
-    std::string                   mass_follows = "contact radius", extra_walls, wall_motion;
+    std::string                   mass_follows = "contact radius";
     bool                          fixed_grains = false, may_write = true;
     mutable double                last_factor = 1.;
   };

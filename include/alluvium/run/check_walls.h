@@ -1,0 +1,9 @@
+#pragma once
+
+namespace alluvium::run
+{
+  struct Model;
+
+  /** Warn of walls that do less than one may think: those that move in a fluid, or among grains that are fixed. */
+  void check_walls(Model &m);
+} // namespace alluvium::run
