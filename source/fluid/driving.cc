@@ -6,6 +6,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <cmath>
+#include <cstdlib>
 
 namespace alluvium::fluid
 {
@@ -28,6 +29,17 @@ namespace alluvium::fluid
   }
 
 
+  namespace
+  {
+    bool is_zero(const std::string &text)
+    {
+      char        *end   = nullptr;
+      const double value = std::strtod(text.c_str(), &end);
+      return end != text.c_str() && *end == '\0' && value == 0.;
+    }
+  } // namespace
+
+
   template <int dim>
   void Driving<dim>::initialize(const std::map<std::string, double> &constants,
                                 const std::array<double, dim>       &periodic_length)
@@ -45,7 +57,7 @@ namespace alluvium::fluid
     gradient_function     = parse("Fluid/Mean pressure gradient", gradient_text);
     const auto components = Utilities::split_string_list(gradient_text, '|');
     for (unsigned int d = 0; d < dim; ++d)
-      check_user(periodic_length[d] > 0. || components[d] == "0" || components[d] == "0.",
+      check_user(periodic_length[d] > 0. || is_zero(components[d]),
                  std::string("Fluid/Mean pressure gradient: ") + "xy"[d] +
                    " is no periodic direction: pressures on boundaries, or Fluid/Body force, drive the flow there.");
     set_time(0.);

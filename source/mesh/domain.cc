@@ -10,7 +10,6 @@
 #include <deal.II/distributed/shared_tria.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/grid/grid_generator.h>
-#include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
@@ -38,14 +37,32 @@ namespace alluvium::mesh
     }
 
     template <int dim>
-    void read_into(Triangulation<dim> &triangulation, const std::string &text, const std::string &path)
+    void make_from(Triangulation<dim> &triangulation, const GmshFile &file, const std::string &path)
     {
-      std::istringstream in(text);
-      GridIn<dim>        grid_in;
-      grid_in.attach_triangulation(triangulation);
+      std::vector<Point<dim>> vertices;
+      for (const auto &node : file.nodes)
+        vertices.emplace_back(node[0], node[1]);
+      std::vector<CellData<dim>> cells;
+      for (const auto &nodes : file.cells)
+        {
+          cells.emplace_back(file.n_corners);
+          for (unsigned int k = 0; k < file.n_corners; ++k) // deal.II's order of quadrilaterals is no way round
+            cells.back().vertices[k] = nodes[file.n_corners == 4 && k > 1 ? 5 - k : k];
+        }
+      SubCellData sides;
+      for (const auto &line : file.lines)
+        {
+          CellData<1> side;
+          side.vertices    = {line.a, line.b};
+          side.boundary_id = line.tag;
+          sides.boundary_lines.push_back(side);
+        }
       try
         {
-          grid_in.read_msh(in);
+          GridTools::delete_unused_vertices(vertices, cells, sides);
+          if (file.n_corners == 4)
+            GridTools::consistently_order_cells(cells);
+          triangulation.create_triangulation(vertices, cells, sides);
         }
       catch (const std::exception &error)
         {
@@ -311,8 +328,9 @@ namespace alluvium::mesh
     mesh_text = content[0];
     strip_byte_order_mark(mesh_text, "Domain/Mesh file: '" + mesh_path + "'");
 
-    const GmshFile file = read_gmsh_file(mesh_text, mesh_path);
-    triangles           = file.n_triangles > 0;
+    GmshFile file = read_gmsh_file(mesh_text, mesh_path);
+    make_valid(file, mesh_path);
+    triangles = file.has_triangles();
     std::map<types::boundary_id, std::string> names;
     for (const auto &[name, id] : file.boundary_names)
       {
@@ -321,7 +339,7 @@ namespace alluvium::mesh
       }
 
     Triangulation<dim> serial;
-    read_into(serial, mesh_text, mesh_path);
+    make_from(serial, file, mesh_path);
     std::vector<Side> sides;
     for (const auto &cell : serial.active_cell_iterators())
       for (const unsigned int f : cell->face_indices())
@@ -395,7 +413,11 @@ namespace alluvium::mesh
       if (is_rectangle())
         make_rectangle(triangulation, cell_size);
       else
-        read_into(triangulation, mesh_text, mesh_path);
+        {
+          GmshFile file = read_gmsh_file(mesh_text, mesh_path);
+          make_valid(file, mesh_path);
+          make_from(triangulation, file, mesh_path);
+        }
     };
     if (triangles || (never_refines && is_rectangle() && !box.any()))
       {

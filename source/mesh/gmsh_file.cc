@@ -1,10 +1,13 @@
 #include <alluvium/mesh/gmsh_file.h>
+#include <alluvium/utilities/text_file.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <sstream>
+#include <unordered_map>
 
 namespace alluvium::mesh
 {
@@ -34,8 +37,13 @@ namespace alluvium::mesh
              "has no $PhysicalNames: give every side of the boundary a named physical group in gmsh "
              "(`Physical Curve(\"bottom\") = {1};`).");
         read_names();
+        if (!old_format)
+          {
+            find("Entities");
+            read_entities();
+          }
         find("Nodes");
-        check_flatness();
+        read_nodes();
         find("Elements");
         read_elements();
         return file;
@@ -84,50 +92,83 @@ namespace alluvium::mesh
 
       void read_names()
       {
-        const auto n = count("the number of names");
+        const auto             n = count("the number of names");
+        std::set<unsigned int> tags;
         for (std::size_t i = 0; i < n; ++i)
           {
             const auto  dimension = number<int>("a dimension");
-            const auto  tag       = number<unsigned int>("a tag");
+            const auto  tag       = number<long long>("a tag");
             std::string name;
             std::getline(in, name);
             const auto first = name.find('"'), last = name.rfind('"');
             check(first != std::string::npos && last > first, "has a physical name without quotes.");
             name = name.substr(first + 1, last - first - 1);
-            if (dimension == 1)
-              check(file.boundary_names.emplace(name, tag).second,
-                    "has two physical curves named '" + name + "'; a name must be unique.");
+            check(is_utf8(name), "has a physical name that is not UTF-8.");
+            if (dimension != 1)
+              continue;
+            check(tag > 0 && tag < largest_tag,
+                  "numbers the physical curve '" + name + "' " + std::to_string(tag) +
+                    "; tags are positive and below 1e9.");
+            check(file.boundary_names.emplace(name, tag).second,
+                  "has two physical curves named '" + name + "'; a name must be unique.");
+            check(tags.insert(tag).second, "has two names for the physical curve " + std::to_string(tag) + ".");
           }
         check(!file.boundary_names.empty(),
               "names no physical curve: give every side of the boundary a named physical group in gmsh "
               "(`Physical Curve(\"bottom\") = {1};`).");
       }
 
-      void check_flatness()
+      /** Which physical group the curves of format 4.1 are in. */
+      void read_entities()
+      {
+        std::array<std::size_t, 4> n;
+        for (std::size_t &n_of_dimension : n)
+          n_of_dimension = count("a number of entities");
+        for (unsigned int dimension = 0; dimension < 2; ++dimension)
+          for (std::size_t i = 0; i < n[dimension]; ++i)
+            {
+              const auto tag = number<long long>("an entity's tag");
+              for (unsigned int k = 0; k < (dimension == 0 ? 3 : 6); ++k)
+                number<double>("an entity's box");
+              const auto n_groups = count("the number of physical groups");
+              for (std::size_t k = 0; k < n_groups; ++k)
+                {
+                  const auto group = number<long long>("a physical group");
+                  if (dimension == 1 && k == 0)
+                    group_of_curve[tag] = group;
+                }
+              if (dimension == 0)
+                continue;
+              const auto n_ends = count("the number of bounding points");
+              for (std::size_t k = 0; k < n_ends; ++k)
+                number<long long>("a bounding point");
+            }
+      }
+
+      void read_nodes()
       {
         double     lower = std::numeric_limits<double>::max(), upper = -lower, size = 0.;
-        const auto read_point = [&] {
+        const auto read_point = [&](const long long tag) {
           const double x = number<double>("x"), y = number<double>("y"), z = number<double>("z");
           check(std::isfinite(x) && std::isfinite(y) && std::isfinite(z),
                 "has a node whose coordinates are not finite.");
           lower = std::min(lower, z);
           upper = std::max(upper, z);
           size  = std::max({size, std::abs(x), std::abs(y)});
+          check(number_of_node.emplace(tag, file.nodes.size()).second,
+                "has node " + std::to_string(tag) + " twice, in $Nodes.");
+          file.nodes.push_back({{x, y}});
         };
-        std::size_t n_points = 0;
         if (old_format)
           {
-            n_points = count("the number of nodes");
-            for (std::size_t i = 0; i < n_points; ++i)
-              {
-                number<long long>("a node's tag");
-                read_point();
-              }
+            const auto n = count("the number of nodes");
+            for (std::size_t i = 0; i < n; ++i)
+              read_point(number<long long>("a node's tag"));
           }
         else
           {
             const auto n_blocks = count("the number of blocks");
-            count("the number of nodes");
+            const auto n_nodes  = count("the number of nodes");
             count("the first tag");
             count("the last tag");
             for (std::size_t block = 0; block < n_blocks; ++block)
@@ -136,32 +177,33 @@ namespace alluvium::mesh
                 number<int>("an entity");
                 check(number<int>("`parametric`") == 0,
                       "has parametric nodes; export it without (`Mesh.SaveParametric = 0`).");
-                const auto n = count("the number of nodes in a block");
+                const auto             n = count("the number of nodes in a block");
+                std::vector<long long> tags;
                 for (std::size_t i = 0; i < n; ++i)
-                  number<long long>("a node's tag");
-                for (std::size_t i = 0; i < n; ++i)
-                  read_point();
-                n_points += n;
+                  tags.push_back(number<long long>("a node's tag"));
+                for (const long long tag : tags)
+                  read_point(tag);
               }
+            check(file.nodes.size() == n_nodes, "has another number of nodes than it says, in $Nodes.");
           }
-        check(n_points > 0, "has no nodes.");
+        check(!file.nodes.empty(), "has no nodes.");
         check(upper - lower <= 1e-9 * size, "is not in the plane z = constant: Alluvium needs a 2-D mesh in x and y.");
+        find_end();
       }
 
-      void add(const int type, const std::size_t n)
+      /** Number of corners of gmsh's element @p type. */
+      unsigned int n_corners(const int type) const
       {
-        // gmsh's numbers of element types
         switch (type)
           {
-            case 1:  // line
             case 15: // point
-              break;
-            case 2:
-              file.n_triangles += n;
-              break;
-            case 3:
-              file.n_quadrilaterals += n;
-              break;
+              return 1;
+            case 1: // line
+              return 2;
+            case 2: // triangle
+              return 3;
+            case 3: // quadrilateral
+              return 4;
             case 4:
             case 5:
             case 6:
@@ -180,17 +222,49 @@ namespace alluvium::mesh
           }
       }
 
+      /** The nodes of an element with @p n corners; @p group is the physical one. */
+      void read_element(const unsigned int n, const long long group)
+      {
+        std::array<unsigned int, 4> nodes{};
+        for (unsigned int k = 0; k < n; ++k)
+          {
+            const auto tag   = number<long long>("an element's node");
+            const auto found = number_of_node.find(tag);
+            check(found != number_of_node.end(),
+                  "has an element with node " + std::to_string(tag) + ", which is not in $Nodes.");
+            nodes[k] = found->second;
+            check(std::find(nodes.begin(), nodes.begin() + k, nodes[k]) == nodes.begin() + k,
+                  "has an element with node " + std::to_string(tag) + " at two corners.");
+          }
+        if (n == 2 && group > 0)
+          {
+            check(group < largest_tag, "has a line in the physical group " + std::to_string(group) + ", above 1e9.");
+            file.lines.push_back({nodes[0], nodes[1], static_cast<unsigned int>(group)});
+          }
+        if (n < 3)
+          return;
+        check(file.n_corners == 0 || file.n_corners == n, "mixes triangles and quadrilaterals; give only one kind.");
+        file.n_corners = n;
+        file.cells.push_back(nodes);
+      }
+
       void read_elements()
       {
-        std::string rest;
         if (old_format)
           {
             const auto n = count("the number of elements");
             for (std::size_t i = 0; i < n; ++i)
               {
                 number<long long>("an element's tag");
-                add(number<int>("an element's type"), 1);
-                std::getline(in, rest);
+                const auto corners = n_corners(number<int>("an element's type"));
+                const auto n_tags  = count("the number of an element's tags");
+                long long  group   = 0;
+                for (std::size_t k = 0; k < n_tags; ++k)
+                  {
+                    const auto tag = number<long long>("an element's group");
+                    group          = k == 0 ? tag : group;
+                  }
+                read_element(corners, group);
               }
           }
         else
@@ -202,28 +276,40 @@ namespace alluvium::mesh
             for (std::size_t block = 0; block < n_blocks; ++block)
               {
                 number<int>("a dimension");
-                number<int>("an entity");
-                const int  type = number<int>("an element's type");
-                const auto n    = count("the number of elements in a block");
-                add(type, n);
-                std::getline(in, rest);
+                const auto curve   = group_of_curve.find(number<long long>("an entity"));
+                const auto corners = n_corners(number<int>("an element's type"));
+                const auto n       = count("the number of elements in a block");
                 for (std::size_t i = 0; i < n; ++i)
-                  check(static_cast<bool>(std::getline(in, rest)), "ends within $Elements.");
+                  {
+                    number<long long>("an element's tag");
+                    read_element(corners, corners == 2 && curve != group_of_curve.end() ? curve->second : 0);
+                  }
               }
           }
-        check(text.find("$EndElements") != std::string::npos, "ends within $Elements.");
-        check(file.n_triangles + file.n_quadrilaterals > 0,
+        check(!file.cells.empty(),
               "has no triangles or quadrilaterals. gmsh leaves out a surface without a physical group: add "
               "`Physical Surface(\"fluid\") = {1};`.");
-        check(file.n_triangles == 0 || file.n_quadrilaterals == 0,
-              "mixes triangles and quadrilaterals; give only one kind.");
+        find_end();
       }
+
+      /** What comes next must be the section's end. */
+      void find_end()
+      {
+        std::string word;
+        in >> word;
+        check(word == "$End" + current, "goes on with '" + word + "' where $End" + current + " should be.");
+      }
+
+      static constexpr long long largest_tag = 1000000000;
 
       std::istringstream in;
       const std::string &text, &path;
       std::string        current;
       bool               old_format = false;
-      GmshFile           file;
+      // by gmsh's tags
+      std::unordered_map<long long, unsigned int> number_of_node;
+      std::map<long long, long long>              group_of_curve;
+      GmshFile                                    file;
     };
   } // namespace
 

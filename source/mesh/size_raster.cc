@@ -18,8 +18,13 @@ namespace alluvium::mesh
     periodic            = new_periodic;
     const double width  = domain.upper[0] - domain.lower[0];
     const double height = domain.upper[1] - domain.lower[1];
-    side                = std::max(spacing, std::sqrt(width * height / max_buckets));
-    n = {{std::size_t(std::max(1., std::ceil(width / side))), std::size_t(std::max(1., std::ceil(height / side)))}};
+    const double wanted = std::max(spacing, std::sqrt(width * height / max_buckets));
+    for (unsigned int d = 0; d < 2; ++d)
+      {
+        const double length = domain.upper[d] - domain.lower[d];
+        n[d]                = std::size_t(std::max(1., std::ceil(length / wanted * (1. - 1e-9))));
+        side[d]             = length / n[d];
+      }
     size.assign(n[0] * n[1], std::numeric_limits<double>::infinity());
   }
 
@@ -31,8 +36,8 @@ namespace alluvium::mesh
     Range            range;
     for (unsigned int d = 0; d < 2; ++d)
       {
-        const double low  = std::floor((box.lower[d] - domain.lower[d]) / side + edge),
-                     high = std::max(low + 1., std::ceil((box.upper[d] - domain.lower[d]) / side - edge));
+        const double low  = std::floor((box.lower[d] - domain.lower[d]) / side[d] + edge),
+                     high = std::max(low + 1., std::ceil((box.upper[d] - domain.lower[d]) / side[d] - edge));
         range.begin[d]    = std::size_t(std::clamp(low, 0., double(n[d])));
         range.end[d]      = std::size_t(std::clamp(high, 0., double(n[d])));
       }
@@ -78,7 +83,7 @@ namespace alluvium::mesh
       return;
 
     // a distance transform by sweeps to and fro with the eight neighbours; seams need a second round
-    const double straight = growth * side, diagonal = std::sqrt(2.) * straight;
+    const double across = growth * side[0], up = growth * side[1], diagonal = std::hypot(across, up);
     const int    nx = static_cast<int>(n[0]), ny = static_cast<int>(n[1]);
     const auto   at = [&](int i, int j) {
       if (periodic[0])
@@ -91,8 +96,8 @@ namespace alluvium::mesh
     bool       changed = true;
     const auto relax   = [&](const int i, const int j, const int back) {
       double      &s      = size[std::size_t(j) * n[0] + i];
-      const double nearby = std::min({at(i + back, j) + straight,
-                                      at(i, j + back) + straight,
+      const double nearby = std::min({at(i + back, j) + across,
+                                      at(i, j + back) + up,
                                       at(i + back, j + back) + diagonal,
                                       at(i - back, j + back) + diagonal});
       if (nearby < s)

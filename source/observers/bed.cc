@@ -15,7 +15,8 @@ namespace alluvium::observers
     public:
       void add_columns(const Snapshot &s, Statistics &statistics) override
       {
-        statistics.add_column("bed_height_m");
+        if (has_height(s))
+          statistics.add_column("bed_height_m");
         statistics.add_column("largest_grain_velocity_m_per_s");
         statistics.add_column("kinetic_energy_J_per_m");
         if (s.fluid)
@@ -36,9 +37,12 @@ namespace alluvium::observers
             fastest         = std::max(fastest, std::sqrt(v2));
             energy += 0.5 * (g.mass[i] * v2 + grains::disc_inertia(g.mass[i], g.radius[i]) * g.omega[i] * g.omega[i]);
           }
-        const auto faces = mesh::find_bed_faces(g, s.left, s.right, geometry::Upright::of(s.gravity));
-        height           = faces.empty() ? std::numeric_limits<double>::quiet_NaN() : faces.mean_height();
-        statistics.set("bed_height_m", height);
+        if (has_height(s))
+          {
+            const auto faces = mesh::find_bed_faces(g, s.left, s.right, geometry::Upright::of(s.gravity));
+            height           = faces.empty() ? std::numeric_limits<double>::quiet_NaN() : faces.mean_height();
+            statistics.set("bed_height_m", height);
+          }
         statistics.set("largest_grain_velocity_m_per_s", fastest);
         statistics.set("kinetic_energy_J_per_m", energy);
         if (s.fluid)
@@ -58,7 +62,10 @@ namespace alluvium::observers
       }
 
     private:
-      double height = 0.;
+      /** Without gravity nothing is high. */
+      static bool has_height(const Snapshot &s) { return s.gravity[0] != 0. || s.gravity[1] != 0.; }
+
+      double height = std::numeric_limits<double>::quiet_NaN();
     };
   } // namespace
 

@@ -240,7 +240,10 @@ namespace alluvium::scene
           continue;
 
         const DeclaredParameter *parameter = declared.find(statement.path);
-        if (parameter == nullptr)
+        if (!is_utf8(statement.value))
+          problems.push_back(statement.origin + ": the value of '" + to_string(statement.path) +
+                             "' has characters that are not UTF-8; save the file as UTF-8.");
+        else if (parameter == nullptr)
           problems.push_back(statement.origin + ": there is no parameter '" + statement.path.back() + "' " +
                              in_section(statement.path) + declared.suggest_parameter(statement.path));
         else if (!matches(parameter->pattern, statement.value))

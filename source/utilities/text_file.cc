@@ -19,6 +19,33 @@ namespace alluvium
   }
 
 
+  bool is_utf8(const std::string &text)
+  {
+    const auto byte = [&](const std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    for (std::size_t i = 0; i < text.size();)
+      {
+        const unsigned int first = byte(i);
+        const std::size_t  more  = first < 0x80   ? 0
+                                   : first < 0xC2 ? 4
+                                   : first < 0xE0 ? 1
+                                   : first < 0xF0 ? 2
+                                   : first < 0xF5 ? 3
+                                                  : 4;
+        if (more == 4 || i + more >= text.size())
+          return false;
+        for (std::size_t k = 1; k <= more; ++k)
+          if ((byte(i + k) & 0xC0) != 0x80)
+            return false;
+        // no longer than needed, no halves of UTF-16, none beyond the last plane
+        if (more > 1 && ((first == 0xE0 && byte(i + 1) < 0xA0) || (first == 0xED && byte(i + 1) > 0x9F) ||
+                         (first == 0xF0 && byte(i + 1) < 0x90) || (first == 0xF4 && byte(i + 1) > 0x8F)))
+          return false;
+        i += 1 + more;
+      }
+    return true;
+  }
+
+
   std::string read_text_file(const std::string &file, const std::string &what)
   {
     const std::string named = what + " '" + file + "'";

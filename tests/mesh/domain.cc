@@ -285,6 +285,44 @@ namespace
     EXPECT_TRUE(
       contains(complaint_about(head + nodes + "$Elements\n2\n1 2 2 1 1 1 2 3\n2 3 2 1 1 1 2 4 3\n$EndElements\n"),
                "mixes triangles"));
-    EXPECT_TRUE(contains(complaint_about(head + nodes + elements("1 2 2 1 1 1 2 77")), "cannot be used"));
+    EXPECT_TRUE(
+      contains(complaint_about(head + nodes + elements("1 2 2 1 1 1 2 77")), "node 77, which is not in $Nodes"));
+  }
+
+  TEST(Domain, DamagedMeshFilesAreRefused)
+  {
+    const std::string head =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n1 1 \"all\"\n$EndPhysicalNames\n";
+    const std::string nodes    = "$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 2 0 0\n6 2 1 0\n$EndNodes\n";
+    const auto        elements = [](const std::vector<std::string> &lines) {
+      std::string text = "$Elements\n" + std::to_string(lines.size()) + "\n";
+      for (std::size_t i = 0; i < lines.size(); ++i)
+        text += std::to_string(i + 1) + " " + lines[i] + "\n";
+      return text + "$EndElements\n";
+    };
+    const std::string a = "3 2 9 1 1 2 3 4", b = "3 2 9 1 2 5 6 3";
+    const auto        about = [&](const std::vector<std::string> &lines) {
+      return complaint_about(head + nodes + elements(lines));
+    };
+    EXPECT_TRUE(contains(about({a, b}), "is in no named physical curve"));
+    EXPECT_TRUE(contains(about({a, "3 2 9 1 2 5 3 6"}), "not convex at (1.5, 0.5) m"));
+    EXPECT_TRUE(contains(about({"2 2 9 1 1 2 5"}), "without area at (1, 0) m"));
+    EXPECT_TRUE(contains(about({a, a}), "lie on one another"));
+    EXPECT_TRUE(contains(about({"2 2 9 1 1 2 3", "2 2 9 1 1 2 4"}), "lie on one another"));
+    EXPECT_TRUE(contains(about({a, b, "1 2 1 1 2 3"}), "physical curve 'all' inside the mesh, at (1, 0.5) m"));
+    EXPECT_TRUE(contains(about({a, b, "1 2 1 1 1 3"}), "no side of a cell"));
+    EXPECT_TRUE(contains(about({"2 2 9 1 1 2 4", "2 2 9 1 5 6 3"}), "not in one piece"));
+    EXPECT_TRUE(contains(about({"3 2 9 1 1 2 2 4"}), "node 2 at two corners"));
+    EXPECT_TRUE(contains(complaint_about(head + replace(nodes, "4 0 1 0", "3 0 1 0") + elements({a})), "node 3 twice"));
+    EXPECT_TRUE(contains(complaint_about(replace(head, "1 1 ", "1 -1 ") + nodes + elements({a})), "tags are positive"));
+    EXPECT_TRUE(contains(complaint_about(replace(head, "all", "\xff") + nodes + elements({a})), "not UTF-8"));
+    EXPECT_TRUE(
+      contains(complaint_about(head + replace(nodes, "$Nodes\n6", "$Nodes\n5") + elements({a})), "goes on with '6'"));
+    // entities of format 4.1: what crashed deal.II's reader
+    const std::string v4 = content("triangles_41.msh");
+    const auto        at = v4.find("$Entities") + 10;
+    for (const std::string count : {"-1", "99999999999", "1000", "x"})
+      EXPECT_TRUE(contains(complaint_about(v4.substr(0, at) + count + v4.substr(v4.find(' ', at))), "$Entities"))
+        << count;
   }
 } // namespace

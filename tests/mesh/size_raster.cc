@@ -38,6 +38,21 @@ namespace
               raster.smallest_in({{{0.2, 0.2}}, {{0.3, 0.3}}}));
   }
 
+  TEST(SizeRaster, AMirroredDomainHasMirroredSizes)
+  {
+    // a width that is no multiple of the buckets'
+    const Box  box{{{0., 0.}}, {{1.037, 2.}}};
+    SizeRaster raster, mirrored;
+    raster.reinit(box, {{false, false}}, 0.1);
+    mirrored.reinit(box, {{false, false}}, 0.1);
+    raster.stamp({{{0.2, 0.5}}, {{0.33, 0.6}}}, 0.02);
+    mirrored.stamp({{{1.037 - 0.33, 0.5}}, {{1.037 - 0.2, 0.6}}}, 0.02);
+    raster.spread(MPI_COMM_SELF, 0.5);
+    mirrored.spread(MPI_COMM_SELF, 0.5);
+    for (double x = 0.01; x < 1.037; x += 0.03)
+      EXPECT_NEAR(at(raster, x, 0.55), at(mirrored, 1.037 - x, 0.55), 1e-12) << x;
+  }
+
   TEST(SizeRaster, WithoutStampsThereIsNoWish)
   {
     SizeRaster raster;

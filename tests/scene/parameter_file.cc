@@ -194,6 +194,10 @@ TEST_F(ParameterFile, BadValues)
   EXPECT_EQ(error("subsection Grains\n  set Gravity = 1 2\nend\n"),
             "scene.prm:2: parameter 'Grains/Gravity' cannot be '1 2': expected any number of values separated by "
             "commas, each a number.");
+  EXPECT_EQ(error("# gr\xFC\xDF"              // comments may be anything
+                  "e\nset Title = gr\xFC\xDF" // of Latin 1
+                  "e\n"),
+            "scene.prm:2: the value of 'Title' has characters that are not UTF-8; save the file as UTF-8.");
 }
 
 TEST_F(ParameterFile, ListsAllMistakesAndSetsNothing)

@@ -33,6 +33,15 @@ namespace
   {
     return text.find(part) != std::string::npos;
   }
+
+  TEST(TextFile, Utf8IsKnown)
+  {
+    for (const char *text : {"", "plain", "gr\xC3\xBC\xC3\x9F", "\xE2\x82\xAC", "\xF0\x9F\x8C\x8A"})
+      EXPECT_TRUE(alluvium::is_utf8(text)) << text;
+    for (const char *text :
+         {"gr\xFC\xDF", "\xC3", "\xC0\xAF", "\xE2\x82", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\x80", "\xFF"})
+      EXPECT_FALSE(alluvium::is_utf8(text)) << text;
+  }
 } // namespace
 
 TEST(TextFile, ByteOrderMarks)

@@ -10,7 +10,7 @@
 namespace alluvium::mesh
 {
   /**
-   * A cell size for every place of a rectangle, held on a raster of square buckets: stamped here and there, it grows
+   * A cell size for every place of a rectangle, held on a raster of buckets: stamped here and there, it grows
    * linearly with the distance from the stamps. Everything costs as much as there are buckets, however many stamps
    * there are; sizes are wanted up to a bucket farther than asked.
    */
@@ -18,8 +18,8 @@ namespace alluvium::mesh
   {
   public:
     /**
-     * No wish anywhere in @p domain. Buckets have side @p spacing [m], or more if they would be over four million.
-     * The sizes spread over the seam of a @p periodic direction.
+     * No wish anywhere in @p domain. Buckets have sides of @p spacing [m] or a little less, so that whole ones fill the
+     * domain and a mirrored domain has mirrored buckets; or more if they would be over four million. The sizes spread over the seam of a @p periodic direction.
      */
     void reinit(const Box &domain, const std::array<bool, 2> &periodic, const double spacing);
 
@@ -43,7 +43,7 @@ namespace alluvium::mesh
     Box                        domain;
     std::array<bool, 2>        periodic{};
     std::array<std::size_t, 2> n{};
-    double                     side = 1.;
+    std::array<double, 2>      side{{1., 1.}};
     std::vector<double>        size;
   };
 } // namespace alluvium::mesh

@@ -10,6 +10,9 @@ namespace alluvium
    */
   void strip_byte_order_mark(std::string &text, const std::string &what);
 
+  /** Whether @p text is UTF-8, as everything that is written again must be. */
+  bool is_utf8(const std::string &text);
+
   /**
    * The text of @p file, with line ends as '\n' and without byte order mark. Throws UserError, naming it as
    * "<what> '<file>'", if it does not exist, is a folder, cannot be read or is no text.
