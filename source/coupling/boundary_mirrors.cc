@@ -17,6 +17,8 @@ namespace alluvium::coupling
     using Point2 = std::array<double, 2>;
 
     constexpr unsigned int no_mirror = static_cast<unsigned int>(-1);
+    constexpr unsigned int at_most   = 3; // mirrors one after the other: corners down to 60 degrees
+    constexpr double       close     = 1e-9;
 
     /** Twice the area of the triangle a, b, p: above zero to the left of a to b. */
     double left_of(const Point2 &a, const Point2 &b, const Point2 &p)
@@ -31,8 +33,11 @@ namespace alluvium::coupling
       return std::hypot(a[0] + s * ex - x, a[1] + s * ey - y);
     }
 
-    /** Where on the way from p (0) to q (1) the side a to b is crossed from right to left; below 0: nowhere. */
-    double crossing(const Point2 &p, const Point2 &q, const Point2 &a, const Point2 &b)
+    /**
+     * Where on the way from p (0) to q (1) the side a to b is crossed from right to left; below 0: nowhere. The side
+     * may be longer at both ends by @p longer of itself.
+     */
+    double crossing(const Point2 &p, const Point2 &q, const Point2 &a, const Point2 &b, const double longer = 0.)
     {
       const double from = left_of(a, b, p), to = left_of(a, b, q);
       if (!(from < 0. && to > 0.))
@@ -40,7 +45,7 @@ namespace alluvium::coupling
       const double t = from / (from - to), ex = b[0] - a[0], ey = b[1] - a[1];
       const double s =
         ((p[0] + t * (q[0] - p[0]) - a[0]) * ex + (p[1] + t * (q[1] - p[1]) - a[1]) * ey) / (ex * ex + ey * ey);
-      return s >= 0. && s <= 1. ? t : -1.;
+      return s >= -longer && s <= 1. + longer ? t : -1.;
     }
   } // namespace
 
@@ -126,6 +131,7 @@ namespace alluvium::coupling
   void BoundaryMirrors::add_images(GrainImages &images, const double reach)
   {
     mirror.assign(images.n(), no_mirror);
+    parent.assign(images.n(), no_mirror);
     begin.assign(1, 0);
     near.clear();
     if (sides.empty() || images.n() == 0)
@@ -149,24 +155,31 @@ namespace alluvium::coupling
     };
 
     std::vector<std::pair<unsigned int, unsigned int>> pairs;
-    {
-      const GrainBins bins(images.x, images.y, reach);
-      for (unsigned int m = 0; m < sides.size(); ++m)
-        {
-          find_near(bins, sides[m]);
-          for (const unsigned int k : found)
-            if (left_of(sides[m].a, sides[m].b, {{images.x[k], images.y[k]}}) > 0.)
-              pairs.push_back({k, m});
-        }
-    }
-    std::sort(pairs.begin(), pairs.end());
-    for (const auto &[k, m] : pairs)
+    unsigned int                                       first = 0; // of the images that have not been mirrored yet
+    for (unsigned int n_mirrors = 1; n_mirrors <= at_most && first < images.n(); ++n_mirrors)
       {
-        const double ex = sides[m].b[0] - sides[m].a[0], ey = sides[m].b[1] - sides[m].a[1];
-        const double height =
-          left_of(sides[m].a, sides[m].b, {{images.x[k], images.y[k]}}) / (ex * ex + ey * ey); // over the side's length
-        images.add(k, {{2. * height * ey, -2. * height * ex}});
-        mirror.push_back(m);
+        pairs.clear();
+        const GrainBins bins(images.x, images.y, reach);
+        for (unsigned int m = 0; m < sides.size(); ++m)
+          {
+            find_near(bins, sides[m]);
+            for (const unsigned int k : found)
+              if (const Point2 centre = {{images.x[k], images.y[k]}};
+                  k >= first && left_of(sides[m].a, sides[m].b, centre) > 0. &&
+                  (mirror[k] == no_mirror || (mirror[k] != m && is_lit(centre, sides[mirror[k]], sides[m], reach))))
+                pairs.push_back({k, m});
+          }
+        first = images.n();
+        std::sort(pairs.begin(), pairs.end());
+        for (const auto &[k, m] : pairs)
+          {
+            const double ex = sides[m].b[0] - sides[m].a[0], ey = sides[m].b[1] - sides[m].a[1];
+            const double height = left_of(sides[m].a, sides[m].b, {{images.x[k], images.y[k]}}) /
+                                  (ex * ex + ey * ey); // over the side's length
+            images.add(k, {{2. * height * ey, -2. * height * ex}});
+            mirror.push_back(m);
+            parent.push_back(k);
+          }
       }
 
     pairs.clear();
@@ -189,22 +202,74 @@ namespace alluvium::coupling
   }
 
 
+  /** Does any light from @p centre through @p window fall on @p side within @p reach? */
+  bool BoundaryMirrors::is_lit(const std::array<double, 2> &centre,
+                               const Side                  &window,
+                               const Side                  &side,
+                               const double                 reach) const
+  {
+    double     first = 0., last = 1.;
+    const auto cut = [&](const double at_a, const double at_b) { // what is above zero
+      if (at_a <= 0. && at_b <= 0.)
+        last = -1.;
+      else if (at_a < 0.)
+        first = std::max(first, at_a / (at_a - at_b));
+      else if (at_b < 0.)
+        last = std::min(last, at_a / (at_a - at_b));
+    };
+    cut(left_of(window.a, window.b, side.a), left_of(window.a, window.b, side.b));
+    cut(left_of(centre, window.b, side.a), left_of(centre, window.b, side.b));
+    cut(left_of(window.a, centre, side.a), left_of(window.a, centre, side.b));
+    if (!(first < last))
+      return false;
+    const auto at = [&](const double t) {
+      return Point2{{side.a[0] + t * (side.b[0] - side.a[0]), side.a[1] + t * (side.b[1] - side.a[1])}};
+    };
+    return distance(at(first), at(last), centre[0], centre[1]) < reach;
+  }
+
+
   bool BoundaryMirrors::sees(const GrainImages &images, const std::size_t k, const std::array<double, 2> &point) const
   {
-    if (sides.empty())
-      return true;
+    return sides.empty() || sees(images, k, point, 1.);
+  }
+
+
+  /** As far as the part @p last of the way. */
+  bool BoundaryMirrors::sees(const GrainImages           &images,
+                             const std::size_t            k,
+                             const std::array<double, 2> &point,
+                             const double                 last) const
+  {
     const Point2 centre   = {{images.x[k], images.y[k]}};
     double       entrance = 0.;
     if (mirror[k] != no_mirror)
       {
-        const Side &own = sides[mirror[k]];
-        entrance        = crossing(centre, point, own.a, own.b);
+        // what comes out of a corner itself, which two orders of the same mirrors share, is the first one's
+        const bool   twice  = mirror[parent[k]] != no_mirror;
+        const Side  &own    = sides[mirror[k]];
+        const double longer = last < 1. ? close : !twice ? 0. : mirror[parent[k]] < mirror[k] ? close : -close;
+        entrance            = crossing(centre, point, own.a, own.b, longer);
         if (entrance < 0.)
           return false;
+        if (twice)
+          {
+            // seen in the first mirror as far as this one, and a little farther: in a corner it is crossed there, too
+            const std::size_t up = parent[k];
+            Point2            there;
+            for (unsigned int d = 0; d < 2; ++d)
+              {
+                const double from = d == 0 ? images.x[up] : images.y[up];
+                there[d]          = from + (1. + 2. * close) * (centre[d] + entrance * (point[d] - centre[d]) - from);
+              }
+            if (!sees(images, up, there, 1. - 3. * close))
+              return false;
+          }
       }
     // outwards, and not through the other face of the crack that is the mirror
     for (unsigned int s = begin[k]; s < begin[k + 1]; ++s)
-      if (crossing(centre, point, sides[near[s]].b, sides[near[s]].a) > entrance + 1e-9)
+      if (const double t = crossing(centre, point, sides[near[s]].b, sides[near[s]].a);
+          t > entrance + close && t < last)
         return false;
     return true;
   }

@@ -39,7 +39,7 @@ namespace alluvium::mesh
     {
       double sum = 0.;
       for (const auto &[y, a] : levels)
-        if ((sum += a) >= area)
+        if ((sum += a) >= area * (1. - 1e-9)) // equal grains may have just as much
           {
             level = y;
             return true;

@@ -232,6 +232,8 @@ def make_settings(scene, draw):
     put["Contacts/Rolling friction coefficient"] = draw.choice(("0", "0", "0.1"))
     put["Contacts/Restitution"] = draw.choice(("0", "0", "0.5"))
     put["Contacts/Contact solver"] = draw.choice(3 * ["accelerated Gauss-Seidel"] + ["Gauss-Seidel", "SOR", "accelerated Jacobi", "work queue"])
+    if put["Contacts/Contact solver"] == "accelerated Jacobi":  # knows none
+        put["Contacts/Rolling friction coefficient"] = "0"
     put["Contacts/Contact law"] = draw.choice(("Coulomb", "Coulomb", "static-kinetic"))
     scene.dimensional["Contacts/Contact law: static-kinetic/Transition slip speed"] = (0.1 * math.sqrt(9.81 * d), SPEED)
     scene.dimensional["Contacts/Restitution threshold velocity"] = (0.1 * math.sqrt(9.81 * d), SPEED)

@@ -25,9 +25,9 @@ class Program:
         for key, value in {**settings, "Output/Output folder": output}.items():
             command += ["--set", f"{key}={value}"]
         try:
-            result = subprocess.run(command, capture_output=True, text=True, errors="replace", cwd=folder, env=self.environment, timeout=300)
+            result = subprocess.run(command, capture_output=True, text=True, errors="replace", cwd=folder, env=self.environment, timeout=900)
         except subprocess.TimeoutExpired:
-            raise Failed("takes more than 300 s")
+            raise Failed("takes more than 900 s")
         if result.returncode != 0:
             errors = [line for line in result.stderr.split("\n") if "alluvium: error" in line]
             raise Failed(f"exit code {result.returncode}: {' '.join(errors)[:300] or result.stderr[-300:]}")
@@ -53,6 +53,8 @@ class Program:
 
 def read_grains(file_name):
     """{id: (x, y, radius, fluid radius, mass, vx, vy, omega)} of a checkpoint."""
+    if not os.path.exists(file_name):
+        raise Failed("no checkpoint: energy that nothing explains is above half of its bound")
     with open(file_name, "rb") as file:
         file.readline()
         data = file.read()

@@ -6,8 +6,9 @@ namespace alluvium::coupling
 {
   /**
    * The sides of the boundary that are not straight_sides() of the bounding box: inclined, curved, of obstacles, both
-   * faces of a crack. What of a grain's disc lies behind one, seen from its centre, is mirrored at it. A disc loses
-   * and gains the same area so, and nothing of a grain gets through a wall, however thin.
+   * faces of a crack. What of a grain's disc lies behind one, seen from its centre, is mirrored at it, and in corners
+   * once more at the next. A disc loses and gains the same area so, and nothing of a grain gets through a wall, however
+   * thin.
    */
   class BoundaryMirrors
   {
@@ -33,9 +34,12 @@ namespace alluvium::coupling
     };
 
     void join();
+    bool is_lit(const std::array<double, 2> &centre, const Side &window, const Side &side, double reach) const;
+    bool sees(const GrainImages &, std::size_t k, const std::array<double, 2> &point, double last) const;
 
     std::vector<Side>         sides;
     std::vector<unsigned int> mirror;      // of each image; largest number: none
+    std::vector<unsigned int> parent;      // the image that is seen in the mirror
     std::vector<unsigned int> begin, near; // the sides near each image
   };
 } // namespace alluvium::coupling
