@@ -56,3 +56,27 @@ TEST(PluginChoice, ASecondHandlerReachesTheInstanceInUse)
   set_side(first, "5");
   EXPECT_EQ(choice.get().area(), 25.);
 }
+
+// Of two plug-ins with one name the first would be used, without a word.
+TEST(PluginChoice, ANameTakenTwiceIsSaid)
+{
+  struct Colour
+  {
+    virtual ~Colour() = default;
+    void add_parameters(ParameterHandler &) {}
+  };
+  const auto create = [] { return std::make_unique<Colour>(); };
+  EXPECT_TRUE(Registry<Colour>::add("red", "As blood.", create));
+  ParameterHandler prm;
+  PluginChoice<Colour>().add_parameters(prm, "Colour", "red", "Which.");
+  EXPECT_FALSE(Registry<Colour>::add("red", "As a rose.", create));
+  try
+    {
+      PluginChoice<Colour>().add_parameters(prm, "Colour", "red", "Which.");
+      FAIL() << "accepted";
+    }
+  catch (const UserError &e)
+    {
+      EXPECT_NE(std::string(e.what()).find("'red'"), std::string::npos) << e.what();
+    }
+}

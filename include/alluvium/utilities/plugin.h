@@ -37,7 +37,17 @@ namespace alluvium
     static bool
     add(const std::string &name, const std::string &prose, std::function<std::unique_ptr<Interface>()> create)
     {
-      return entries().emplace(name, Entry{prose, std::move(create)}).second;
+      const bool is_new = entries().emplace(name, Entry{prose, std::move(create)}).second;
+      if (!is_new)
+        taken().push_back(name);
+      return is_new;
+    }
+
+    /** Names that were registered more than once. Said by PluginChoice: before main() there is nobody to say it to. */
+    static std::vector<std::string> &taken()
+    {
+      static std::vector<std::string> names;
+      return names;
     }
   };
 
@@ -148,6 +158,10 @@ namespace alluvium
     void create_all(const std::string &choice)
     {
       selected = choice;
+      check_user(Registry<Interface>::taken().empty(),
+                 "Two plug-ins of a kind have the same name, '" +
+                   (Registry<Interface>::taken().empty() ? std::string() : Registry<Interface>::taken().front()) +
+                   "'. One of the program's own cannot be replaced: name yours otherwise.");
       for (const auto &[key, entry] : Registry<Interface>::entries())
         instances.emplace(key, entry.create());
       for (const auto &[key, instance] : instances)
