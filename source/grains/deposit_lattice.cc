@@ -1,5 +1,6 @@
 #include <alluvium/grains/deposit_box.h>
 #include <alluvium/grains/deposit_fit.h>
+#include <alluvium/grains/deposit_room.h>
 #include <alluvium/utilities/plugin.h>
 
 #include <cmath>
@@ -44,13 +45,17 @@ namespace alluvium::grains
       check_user(nx > 0 && ny > 0, "The deposit 'lattice' has no grains: its box is smaller than one lattice cell.");
       // Over the seams of a periodic domain it goes on evenly.
       const double      ax = box.periodic[0] ? box.width() / nx : a, ay = box.periodic[1] ? box.height() / ny : a;
+      const DepositRoom room(context, box, 0.5 * diameter, 0.5 * diameter);
       std::vector<Seed> seeds;
       for (int row = 0; row < ny; ++row)
         for (int column = 0; column < nx; ++column)
-          seeds.push_back({0.5 * (box.lower[0] + box.upper[0]) + (column - 0.5 * (nx - 1)) * ax,
-                           0.5 * (box.lower[1] + box.upper[1]) + (row - 0.5 * (ny - 1)) * ay,
-                           0.5 * diameter,
-                           context.density});
+          {
+            const double x = 0.5 * (box.lower[0] + box.upper[0]) + (column - 0.5 * (nx - 1)) * ax,
+                         y = 0.5 * (box.lower[1] + box.upper[1]) + (row - 0.5 * (ny - 1)) * ay;
+            if (room.fits(x, y, 0.5 * diameter))
+              seeds.push_back({x, y, 0.5 * diameter, context.density});
+          }
+      check_user(!seeds.empty(), "The deposit 'lattice' has no grains: walls leave no room in its box.");
       return seeds;
     }
 
@@ -59,5 +64,5 @@ namespace alluvium::grains
     std::string box_text;
   };
 
-  ALLUVIUM_REGISTER(Deposit, Lattice, "lattice", "equal discs on a square lattice.")
+  ALLUVIUM_REGISTER(Deposit, Lattice, "lattice", "equal discs on a square lattice, where walls leave room.")
 } // namespace alluvium::grains

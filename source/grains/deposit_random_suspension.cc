@@ -1,5 +1,6 @@
 #include <alluvium/grains/deposit_box.h>
 #include <alluvium/grains/deposit_fit.h>
+#include <alluvium/grains/deposit_room.h>
 #include <alluvium/grains/random_numbers.h>
 #include <alluvium/utilities/plugin.h>
 
@@ -18,11 +19,13 @@ namespace alluvium::grains
       prm.add_parameter("Smallest diameter", d_min, "[m]", Double(0.));
       prm.add_parameter(
         "Size ratio", ratio, "Largest over smallest diameter [-]; diameters are uniform in between.", Double(1.));
-      prm.add_parameter("Area fraction",
-                        area_fraction,
-                        "Disc area over area of the box [-]. Throwing discs at random ends near 0.5.",
-                        Double(0., 1.));
-      prm.add_parameter("Smallest gap", gap, "Between any two discs, and between discs and the box [m].", Double(0.));
+      prm.add_parameter(
+        "Area fraction",
+        area_fraction,
+        "Disc area over area of the box, as far as it is in the domain [-]. Throwing discs at random ends near 0.5.",
+        Double(0., 1.));
+      prm.add_parameter(
+        "Smallest gap", gap, "Between any two discs, and between discs and the box or walls [m].", Double(0.));
       prm.add_parameter("Seed", seed, "Of the random numbers.", Integer(0));
       prm.add_parameter("Box", box_text, deposit_box_prose);
     }
@@ -30,8 +33,9 @@ namespace alluvium::grains
     std::vector<Seed> make(const DepositContext &context) const override
     {
       check_user(d_min > 0., "The deposit 'random suspension' needs a positive 'Smallest diameter'.");
-      const DepositBox box  = parse_deposit_box(box_text, context);
-      const double     area = box.width() * box.height();
+      const DepositBox  box = parse_deposit_box(box_text, context);
+      const DepositRoom room(context, box, 0.5 * d_min, 0.5 * d_min * ratio + gap);
+      const double      area = room.area();
       check_number("random suspension", area_fraction * area / uniform_disc_area(d_min, ratio), box, d_min * ratio);
       RandomNumbers       random(seed);
       std::vector<double> radii;
@@ -82,7 +86,7 @@ namespace alluvium::grains
               const double y      = random.uniform(box.lower[1] + margin_y, box.upper[1] - margin_y);
               const int    column = std::min(nx - 1, static_cast<int>((x - box.lower[0]) / width)),
                         row       = std::min(ny - 1, static_cast<int>((y - box.lower[1]) / height));
-              placed              = true;
+              placed              = room.fits(x, y, margin);
               for (int q = row - 1; q <= row + 1 && placed; ++q)
                 for (int p = column - 1; p <= column + 1 && placed; ++p)
                   for (const std::size_t k : members_at(p, q))

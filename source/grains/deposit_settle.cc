@@ -35,6 +35,16 @@ namespace alluvium::grains
         }
       return walls;
     }
+
+    /** Those that stand in the box, too; what will move stands still. */
+    std::vector<WallSegment> all_walls(const Settling &settling)
+    {
+      std::vector<WallSegment> walls = floor_and_sides(settling.box);
+      for (const WallSegment &wall : settling.walls)
+        walls.push_back({wall.a, wall.b, {{0., 0.}}, wall.name});
+      return walls;
+    }
+
     /** A bed in a thick fluid, in which a falling grain sinks by g 2 dt^2 a step, and nothing swings. */
     class ThickBed
     {
@@ -69,7 +79,7 @@ namespace alluvium::grains
         for (auto *v : {&grains.vx, &grains.vy, &grains.omega})
           std::fill(v->begin(), v->end(), 0.);
         stepper = std::make_unique<ContactStepper>();
-        stepper->set_walls(floor_and_sides(settling.box));
+        stepper->set_walls(all_walls(settling));
         stepper->set_periodicity(periodicity);
         ContactSettings &settings = stepper->settings();
         settings.friction = settings.wall_friction = settling.friction;

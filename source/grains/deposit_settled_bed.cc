@@ -2,6 +2,7 @@
 #include <alluvium/grains/deposit_cache.h>
 #include <alluvium/grains/deposit_fit.h>
 #include <alluvium/grains/deposit_pour.h>
+#include <alluvium/grains/deposit_room.h>
 #include <alluvium/grains/deposit_settle.h>
 #include <alluvium/grains/deposit_table.h>
 #include <alluvium/grains/random_numbers.h>
@@ -27,9 +28,9 @@ namespace alluvium::grains
   } // namespace
 
   /**
-   * A random bed at rest on the floor of the domain's bounding box: poured geometrically, then let go under gravity
-   * with the contact solver until it stands still and the walls carry its weight. Made once and kept in the cache
-   * folder.
+   * A random bed at rest on the floor of its box, and on and between the walls in it: poured geometrically as if there
+   * were none, without the discs that they leave no room or no way for, then let go under gravity with the contact
+   * solver until it stands still and the walls carry its weight. Made once and kept in the cache folder.
    */
   class SettledBed : public Deposit
   {
@@ -61,7 +62,7 @@ namespace alluvium::grains
         "If above 0, pour loosely and look for the friction while settling that gives this packing fraction inside "
         "the bed: about 0.78 (friction 1) to 0.83 (0.03). Beds of more than 4,000 grains, and beds by height, take "
         "what "
-        "fits one of 2,000, and may be off by 0.01.",
+        "fits one of 2,000, and may be off by 0.01; so do beds among walls.",
         Double(0., 0.91));
       prm.add_parameter(
         "Cache folder",
@@ -82,13 +83,14 @@ namespace alluvium::grains
       check_user(!box.periodic[0] || box.width() > 4. * d_min * ratio,
                  "The deposit 'settled bed': its box is periodic and narrower than four grains.");
       check_fits(box);
+      const DepositRoom room(context, box, 0.5 * d_min, 0.5 * d_min * ratio);
 
       // The bed settles along the axis nearest to gravity, whatever way the scene is tilted.
       const double g_scene = std::hypot(context.gravity[0], context.gravity[1]), g = g_scene > 0. ? g_scene : 9.81;
       if (cache.empty())
-        return checked(settle(context, box, g).first, box);
+        return checked(settle(context, box, room, g).first, box);
 
-      const DepositCache kept(path_from(context.directory, cache), write_recipe(context, box, g));
+      const DepositCache kept(path_from(context.directory, cache), write_recipe(context, box, room, g));
       std::vector<Seed>  seeds;
       std::string        remark;
       if (kept.read(seeds, remark))
@@ -96,7 +98,7 @@ namespace alluvium::grains
       if (!remark.empty() && context.warnings)
         context.warnings->push_back(remark);
       SettledState state;
-      std::tie(seeds, state) = settle(context, box, g);
+      std::tie(seeds, state) = settle(context, box, room, g);
       if (context.may_write)
         try
           {
@@ -137,7 +139,8 @@ namespace alluvium::grains
     std::string  cache = "deposits", box_text;
 
     /** Everything that makes the bed what it is; versions stand for the code. */
-    std::string write_recipe(const DepositContext &context, const DepositBox &box, const double g) const
+    std::string
+    write_recipe(const DepositContext &context, const DepositBox &box, const DepositRoom &room, const double g) const
     {
       std::string recipe = "settled bed, version 3, settled by version " + std::to_string(settling_version) + "\n";
       for (const auto &[name, value] : {std::make_pair("x0", box.lower[0]),
@@ -154,6 +157,8 @@ namespace alluvium::grains
                                         std::make_pair("density", context.density),
                                         std::make_pair("gravity", g)})
         recipe += std::string(name) + " = " + exact(value) + "\n";
+      if (!room.empty())
+        recipe += "walls: " + room.in_digits() + "\n";
       return recipe;
     }
 
@@ -178,9 +183,18 @@ namespace alluvium::grains
       return seeds;
     }
 
-    /** Pour discs until there are @p n of them or, if n is 0, enough for a bed of the wanted height. */
     std::vector<Seed>
     pour(const DepositContext &context, const DepositBox &box, const double looseness, const unsigned int n) const
+    {
+      return pour(context, box, looseness, n, height);
+    }
+
+    /** Pour discs until there are @p n of them or, if n is 0, enough for a bed of @p height [m]. */
+    std::vector<Seed> pour(const DepositContext &context,
+                           const DepositBox     &box,
+                           const double          looseness,
+                           const unsigned int    n,
+                           const double          height) const
     {
       RandomNumbers     random(seed);
       Pour              pour(box, 0.5 * d_min * ratio, looseness);
@@ -203,12 +217,50 @@ namespace alluvium::grains
       return seeds;
     }
 
-    std::pair<std::vector<Seed>, SettledState>
-    settle(const DepositContext &context, const DepositBox &box, const double g) const
+    /**
+     * The same among walls: discs that lie in them, or where none gets to from above, are left out. Where they were,
+     * others will sink in: two layers more.
+     */
+    std::vector<Seed>
+    pour(const DepositContext &context, const DepositBox &box, const DepositRoom &room, const double looseness) const
     {
-      const double      looseness = packing > 0. ? loose : 0.;
-      const Settling    settling{box, g, packing > 0. ? find_friction(context, box, g) : friction, packing > 0.};
-      std::vector<Seed> seeds = pour(context, box, looseness, n_wanted);
+      if (room.empty())
+        return pour(context, box, looseness, n_wanted);
+      const double      layers = 4. * d_min * ratio;
+      std::vector<Seed> seeds;
+      for (unsigned int n = n_wanted;;)
+        {
+          // the same random numbers: what there was before is poured again, and more
+          const std::vector<Seed> poured =
+            n_wanted > 0 ? pour(context, box, looseness, n) : pour(context, box, looseness, 0, height + layers);
+          const std::vector<bool> reachable = room.reachable(poured);
+          seeds.clear();
+          for (std::size_t k = 0; k < poured.size(); ++k)
+            if (reachable[k])
+              seeds.push_back(poured[k]);
+          if (n_wanted == 0)
+            break;
+          if (seeds.size() >= n_wanted)
+            {
+              std::stable_sort(seeds.begin(), seeds.end(), [](const Seed &a, const Seed &b) { return a.y < b.y; });
+              seeds.resize(n_wanted);
+              break;
+            }
+          n += std::max<unsigned int>(1.1 * (n_wanted - seeds.size()), n / 20 + 1);
+          check_user(n < 100. * n_wanted + 1e4,
+                     "The deposit 'settled bed' finds no way into its box from above: walls close it.");
+        }
+      check_user(!seeds.empty(), "The deposit 'settled bed' has no grains: walls leave no room in its box.");
+      return seeds;
+    }
+
+    std::pair<std::vector<Seed>, SettledState>
+    settle(const DepositContext &context, const DepositBox &box, const DepositRoom &room, const double g) const
+    {
+      const double   looseness = packing > 0. ? loose : 0.;
+      const Settling settling{
+        box, g, packing > 0. ? find_friction(context, box, room, g) : friction, packing > 0., room.walls()};
+      std::vector<Seed> seeds = pour(context, box, room, looseness);
       SettledState      state = bring_to_rest(settling, seeds);
       if (n_wanted == 0)
         {
@@ -216,7 +268,7 @@ namespace alluvium::grains
           seeds.erase(std::remove_if(seeds.begin(), seeds.end(), [top](const Seed &s) { return s.y + s.radius > top; }),
                       seeds.end());
           check_user(!seeds.empty(), "The deposit 'settled bed' has no grains: its 'Bed height' is less than one.");
-          state = bring_to_rest({box, g, settling.friction}, seeds);
+          state = bring_to_rest({box, g, settling.friction, false, room.walls()}, seeds);
         }
       return {seeds, state};
     }
@@ -225,17 +277,18 @@ namespace alluvium::grains
      * Friction that gives the wanted packing to this bed if it is small, to a small one of the same grains otherwise:
      * bisection, since friction makes beds looser; then the best that was seen, since chance has its part too.
      */
-    double find_friction(const DepositContext &context, const DepositBox &box, const double g) const
+    double
+    find_friction(const DepositContext &context, const DepositBox &box, const DepositRoom &room, const double g) const
     {
-      const bool         small  = n_wanted > 0 && n_wanted <= 4000;
-      const unsigned int n      = small ? n_wanted : 2000;
+      const bool         small  = n_wanted > 0 && n_wanted <= 4000 && room.empty();
+      const unsigned int n      = small ? n_wanted : 2000; // without walls
       const double       width  = small ? box.width() : 45. * d_min * ratio;
       const DepositBox   sample = {
           box.lower, {{box.lower[0] + width, box.lower[1] + 1e3 * width}}, {{box.periodic[0], false}}};
       double     best = 0., best_off = std::numeric_limits<double>::max();
       const auto packing_at = [&](const double mu) {
         std::vector<Seed> seeds = pour(context, sample, loose, n);
-        const double      now   = bring_to_rest({sample, g, mu, true}, seeds).packing;
+        const double      now   = bring_to_rest({sample, g, mu, true, {}}, seeds).packing;
         if (std::abs(now - packing) < best_off)
           {
             best     = mu;
@@ -259,5 +312,8 @@ namespace alluvium::grains
     static constexpr double loose = 0.3; // share of discs that do not roll when poured for a wanted packing
   };
 
-  ALLUVIUM_REGISTER(Deposit, SettledBed, "settled bed", "a random bed at rest on the floor of the domain.")
+  ALLUVIUM_REGISTER(Deposit,
+                    SettledBed,
+                    "settled bed",
+                    "a random bed at rest on the floor of the domain, among the walls that stand in it.")
 } // namespace alluvium::grains

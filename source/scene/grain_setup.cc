@@ -112,14 +112,15 @@ namespace alluvium::scene
         return deposit.make(context);
       context.upright = upright;
       upright.turn(context.lower, context.upper);
-      for (auto &wall : context.walls)
-        {
-          for (auto *x : {&wall.a, &wall.b, &wall.velocity, &wall.centre})
-            *x = upright.to(*x);
-          // turning by a mirror turns spins round
-          if (upright.vertical == 0 ? upright.sign > 0. : upright.sign < 0.)
-            wall.spin = -wall.spin;
-        }
+      for (auto *walls : {&context.walls, &context.sides})
+        for (auto &wall : *walls)
+          {
+            for (auto *x : {&wall.a, &wall.b, &wall.velocity, &wall.centre})
+              *x = upright.to(*x);
+            // turning by a mirror turns spins round
+            if (upright.vertical == 0 ? upright.sign > 0. : upright.sign < 0.)
+              wall.spin = -wall.spin;
+          }
       context.gravity         = upright.to(context.gravity);
       std::array<double, 2> a = context.periodicity.lower, b = a;
       for (unsigned int d = 0; d < 2; ++d)
@@ -168,7 +169,9 @@ namespace alluvium::scene
                                           directory,
                                           domain.periodicity(),
                                           may_write,
-                                          &warnings});
+                                          &warnings,
+                                          {},
+                                          domain.is_rectangle() ? std::vector<grains::WallSegment>() : domain.sides()});
                           for (const std::string &warning : warnings)
                             std::cerr << "alluvium: warning: " << warning << std::endl;
                           std::vector<double> flat;

@@ -34,6 +34,7 @@ namespace alluvium::grains
     bool                      may_write   = true;    // files: caches. Not where a scene is only looked at
     std::vector<std::string> *warnings    = nullptr; // where to put what the user should know, if anywhere
     geometry::Upright         upright     = {};      // how all this has been turned; parameters have not
+    std::vector<WallSegment>  sides       = {};      // the whole boundary, if it is not the bounding box
   };
 
   /**

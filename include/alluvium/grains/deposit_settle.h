@@ -14,6 +14,8 @@ namespace alluvium::grains
     DepositBox box;
     double     g, friction;
     bool       loose = false; // poured such that it cannot stand
+
+    std::vector<WallSegment> walls = {}; // in the box
   };
 
   /** How a bed has settled. */
