@@ -1,10 +1,45 @@
 #include <alluvium/run/check_walls.h>
 #include <alluvium/run/model.h>
 
+#include <algorithm>
 #include <string>
 
 namespace alluvium::run
 {
+  namespace
+  {
+    /** Names of extra walls that grains lie on: at most a tenth of a radius above them, along gravity. */
+    std::string floors_inside(const Model &m)
+    {
+      std::string  names;
+      const double g = m.gravity_size();
+      for (const auto &wall : m.contacts.walls())
+        {
+          if (!(g > 0.) || m.domain.boundary_ids().count(wall.name) > 0 || grains::ever_acts(wall) ||
+              names.find("'" + wall.name + "'") != std::string::npos)
+            continue;
+          const double x0 = std::min(wall.a[0], wall.b[0]), x1 = std::max(wall.a[0], wall.b[0]),
+                       y0 = std::min(wall.a[1], wall.b[1]), y1 = std::max(wall.a[1], wall.b[1]);
+          for (std::size_t k = 0; k < m.grains.n(); ++k)
+            {
+              const double r = m.grains.radius[k], x = m.grains.x[k], y = m.grains.y[k];
+              if (x < x0 - 2. * r || x > x1 + 2. * r || y < y0 - 2. * r || y > y1 + 2. * r ||
+                  grains::distance_to(wall, x, y) > 1.1 * r)
+                continue;
+              const double t    = grains::project(wall, x, y);
+              const double down = (wall.a[0] + t * (wall.b[0] - wall.a[0]) - x) * m.gravity[0] +
+                                  (wall.a[1] + t * (wall.b[1] - wall.a[1]) - y) * m.gravity[1];
+              if (down < 0.5 * g * r)
+                continue;
+              names += (names.empty() ? "'" : ", '") + wall.name + "'";
+              break;
+            }
+        }
+      return names;
+    }
+  } // namespace
+
+
   void check_walls(Model &m)
   {
     std::string acting, sides;
@@ -15,7 +50,8 @@ namespace alluvium::run
           if (list.find("'" + wall.name + "'") == std::string::npos)
             list += (list.empty() ? "'" : ", '") + wall.name + "'";
         }
-    const auto warn = [&](const std::string &text) { m.warnings.add(text, m.time); };
+    const std::string resting = m.has_fluid && m.grains_move ? floors_inside(m) : "";
+    const auto        warn    = [&](const std::string &text) { m.warnings.add(text, m.time); };
     if (!m.grains_move && !(acting + sides).empty())
       warn("Grains/Fixed = true: walls stay where they are, too; their motion is ignored");
     else if (m.has_fluid)
@@ -26,6 +62,13 @@ namespace alluvium::run
         if (!sides.empty())
           warn("the fluid does not see the sides " + sides +
                " move: its domain and its boundary conditions stay as they are, only grains are moved");
+        if (!resting.empty())
+          warn(
+            "grains lie on " + resting +
+            " inside the fluid, which passes it without resistance: the flow below goes to where the bed is loosest, "
+            "as above a distributor without pressure drop, so that parts of a fluidised bed stay on it and an onset by "
+            "force balance may not come. For an even inflow, let the bed lie on a side of the domain with a given "
+            "Velocity");
       }
   }
 } // namespace alluvium::run

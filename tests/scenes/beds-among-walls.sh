@@ -41,7 +41,7 @@ END
 }
 slope down '0, -9.81' '0, 0' '0.004, 0.008' 'slope: 0, 0.002 -> 0.004, 0.001'
 slope right '9.81, 0' '-0.008, 0' '0, 0.004' 'slope: -0.002, 0 -> -0.001, 0.004'
-slope left '-9.81, 0' '0, 0' '0.008, 0.004' 'slope: 0.002, 0.004 -> 0.001, 0; plate: 0.0045, 0 -> 0.0045, 0.004'
+slope left '-9.81, 0' '0, 0' '0.008, 0.004' 'slope: 0.002, 0.004 -> 0.001, 0; plate: 0.0065, 0 -> 0.0065, 0.004'
 must_run 2 down.prm --set 'Output/Output folder=two'
 at_rest two 300
 # the cache tells walls from no walls

@@ -6,7 +6,7 @@ subsection Time
   set End time = 0.1
 end
 subsection Domain
-  set Named parts    = hole = bottom: 0.0016 < x < 0.0024
+  set Named parts    = hole = bottom: 0.001 < x < 0.003
   set Open to grains = hole
 end
 subsection Fluid
@@ -45,10 +45,10 @@ for time, files in vtu.read_pvd(folder + "/grains.pvd"):
     for id, ((x, y, _), r) in now.items():
         # in the box; beside the hole nobody is in the floor, in it nobody beyond its ends
         assert 0.99 * r < x < 0.004 - 0.99 * r, (time, id, x)
-        assert y > 0.99 * r or 0.0016 < x < 0.0024, (time, id, x, y)
+        assert y > 0.99 * r or 0.001 < x < 0.003, (time, id, x, y)
     for id in before.keys() - now.keys():
         (x, y, _), r = before[id]
-        assert 0.0016 < x < 0.0024 and y < 0.0004, (time, id, x, y)
+        assert 0.001 < x < 0.003 and y < 0.0004, (time, id, x, y)
         gone += 1
     before = now
 # a grain that has crossed in the last step is counted, and taken out in the next

@@ -117,3 +117,8 @@ must_run 1 bed.prm --set "Grains/Motion of walls=$lift" --set 'Fluid/Model=volum
 [ "$(grep -c "warning: the fluid does not see the walls 'gate'" error-output)" -eq 1 ] || fail "no word of the fluid"
 must_run 1 bed.prm --set "Grains/Motion of walls=$lift" --set 'Grains/Fixed=true' --set 'Time/End time=0.003' --set 'Output/Output folder=fixed'
 grep -q 'warning: Grains/Fixed = true: walls stay' error-output || fail "no word of fixed grains"
+
+# Grains that lie on a wall that stands still inside the fluid: it passes that without resistance, which is said.
+must_run 1 bed.prm --set 'Fluid/Model=volume-averaged' --set 'Time/End time=0.002' --set 'Output/Output folder=sieve' --set 'Boundary conditions/Slip walls=left, right' \
+  --set 'Output/Observers=motion' --set 'Grains/Extra walls=floor: 0, 0 -> 0.004, 0; gate: 0.004, 0 -> 0.004, 0.006' --set 'Domain/Lower left corner=0, -0.002'
+[ "$(grep -c "warning: grains lie on 'floor' inside the fluid" error-output)" -eq 1 ] || fail "no word of a floor inside the fluid"
