@@ -10,9 +10,12 @@ common=(--set 'Output/Digits=15' --set 'Time/End time=0.008' --set 'Fluid/Linear
         --set 'Output/Observers=head, motion, support, bed') # flux has an imbalance, all round-off
 
 cp suspension.prm spinning.prm
+# one grain, so that some ranks have none
+(cat suspension.prm && echo $'subsection Grains\n set Deposit = file\n subsection Deposit: file\n  set File = lone.csv\n end\nend') >lone.prm
+printf 'x,y,radius\n5e-4,5e-4,1e-4\n' >lone.csv
 (cat bed.prm && echo $'subsection Mesh refinement\n set Criteria = uniform\nend') >uniform.prm # never refined: dealt out otherwise
 
-for scene in bed uniform suspension spinning; do
+for scene in bed uniform suspension spinning lone; do
   [ $scene = spinning ] && common+=(--set 'Coupling/Rotation=true')
   for ranks in 1 2 4; do
     must_run "$ranks" "$scene.prm" "${common[@]}" --set "Output/Output folder=$scene-$ranks"

@@ -53,6 +53,7 @@ namespace alluvium::coupling
     const std::vector<unsigned int> &grain() const { return grain_of_piece; }
     /** Per piece; empty unless the settings ask for it. */
     const std::vector<PieceArm> &arms() const { return arm_of_piece; }
+    bool                         keeps_arms() const { return cut_with.keep_arms; }
 
     /**
      * Row-sum lumped void fraction (9): 1 - sum over pieces of A phi_i / integral of phi_i. Where that falls below zero

@@ -78,7 +78,8 @@ namespace alluvium::coupling
      * spin [N/m^3].
      */
     std::array<double, 2> added_force(const std::size_t k) const;
-    bool                  couples_spin() const { return !map.arms().empty(); }
+    /** The same on all ranks, those without pieces included. */
+    bool couples_spin() const { return map.keeps_arms(); }
     /** What a spin @p omega adds to the velocity of piece @p k; zero where spin is not coupled [m/s]. */
     std::array<double, 2> spin_velocity(const std::size_t k, const double omega) const;
     /** With the spin at t^n. */
