@@ -36,7 +36,9 @@ for ranks in 1 2; do
   done
   # explicit drag is stable in steps far below the grains' relaxation time only
   disturb resting $ranks 5 19 1 --set 'Coupling/Time scheme=explicit' --set 'Time/Time step=2e-5' --set 'Time/End time=6e-4'
-  for scheme in 'implicit drag' 'semi-implicit per piece' 'semi-implicit per grain' iterated; do
+  # with implicit drag a lifted bed diverges in steps of 1e-3 s, in those of 2e-4 s it does not
+  disturb lifted $ranks 5 20 6 --set 'Coupling/Time scheme=implicit drag' --set 'Time/Time step=2e-4'
+  for scheme in 'semi-implicit per piece' 'semi-implicit per grain' iterated; do
     disturb lifted $ranks 5 20 30 --set "Coupling/Time scheme=$scheme"
   done
   disturb lifted $ranks 5 21 30 --set 'Coupling/Rotation=true'
