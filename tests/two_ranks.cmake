@@ -11,7 +11,7 @@ foreach(_set "mesh:*:2:two" "fluid:LinearSolver*:2:two" "fluid:LinearSolver*:3:t
     add_test(NAME ${_room}.on_${_name}_ranks
              COMMAND ${ALLUVIUM_MPIEXEC} -np ${_n} $<TARGET_FILE:test_${_room}> --gtest_filter=${_filter})
     # for Open MPI, as root and on small machines
-    set_tests_properties(${_room}.on_${_name}_ranks PROPERTIES TIMEOUT 300 PROCESSORS 2 ENVIRONMENT
+    set_tests_properties(${_room}.on_${_name}_ranks PROPERTIES TIMEOUT ${_time_limit} PROCESSORS 2 ENVIRONMENT
       "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_mpi_yield_when_idle=1")
   endif()
 endforeach()

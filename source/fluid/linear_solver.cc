@@ -46,6 +46,17 @@ namespace alluvium::fluid
       return residual.l2_norm();
     }
 
+    /** Whether all of @p x are numbers. Its norm would say so too, but deal.II's debug library aborts in it.
+     * Collective. */
+    bool is_finite(const BlockVector &x)
+    {
+      unsigned int n_not_finite = 0;
+      for (unsigned int b = 0; b < x.n_blocks(); ++b)
+        for (const double value : x.block(b))
+          n_not_finite += !std::isfinite(value);
+      return Utilities::MPI::sum(n_not_finite, x.block(0).get_mpi_communicator()) == 0;
+    }
+
     /** What rounding the terms of a row leaves of a residual: no solver can do better. */
     double round_off(const TrilinosWrappers::BlockSparseMatrix &matrix, const double scale, const BlockVector &x)
     {
@@ -348,9 +359,10 @@ namespace alluvium::fluid
     BlockVector        rhs(right_hand_side);
     rhs.block(1) *= ratio;
     const double stop = std::max(tolerance * tolerance_factor, std::min(tolerance, smallest_tolerance));
-    const double norm = rhs.l2_norm(), target = stop * scale[0];
-    if (!std::isfinite(norm))
+    const double norm = is_finite(rhs) ? rhs.l2_norm() : std::numeric_limits<double>::infinity();
+    if (!std::isfinite(norm)) // squares can overflow, too
       throw Divergence("The fluid's right-hand side is not finite.");
+    const double target = stop * scale[0];
     x               = 0.;
     report.residual = norm / scale[0];
     if (norm <= target)
