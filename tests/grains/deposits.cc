@@ -7,6 +7,8 @@
 #include <alluvium/grains/packing.h>
 #include <alluvium/utilities/plugin.h>
 
+#include "deposits_made.h"
+
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -31,28 +33,11 @@ namespace
     return c;
   }
 
+  using test::arrays;
+
   std::vector<Seed> make(const std::string &name, const std::string &parameters, const DepositContext &c = context())
   {
-    dealii::ParameterHandler prm;
-    auto                     deposit = Registry<Deposit>::entries().at(name).create();
-    deposit->add_parameters(prm);
-    prm.parse_input_from_string(parameters);
-    return deposit->make(c);
-  }
-
-  GrainArrays arrays(const std::vector<Seed> &seeds)
-  {
-    GrainArrays grains;
-    grains.resize(seeds.size());
-    for (std::size_t k = 0; k < seeds.size(); ++k)
-      {
-        grains.id[k]     = static_cast<GrainId>(k);
-        grains.x[k]      = seeds[k].x;
-        grains.y[k]      = seeds[k].y;
-        grains.radius[k] = seeds[k].radius;
-        grains.mass[k]   = seeds[k].density * M_PI * seeds[k].radius * seeds[k].radius;
-      }
-    return grains;
+    return test::make(name, parameters, c);
   }
 
   std::vector<WallSegment> box(const DepositContext &c)

@@ -7,6 +7,8 @@
 #include <alluvium/utilities/plugin.h>
 #include <alluvium/utilities/user_error.h>
 
+#include "deposits_made.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,29 +49,7 @@ namespace
     return result;
   }
 
-  std::vector<Seed> make(const std::string &name, const std::string &parameters, const DepositContext &c)
-  {
-    dealii::ParameterHandler prm;
-    auto                     deposit = Registry<Deposit>::entries().at(name).create();
-    deposit->add_parameters(prm);
-    prm.parse_input_from_string(parameters);
-    return deposit->make(c);
-  }
-
-  GrainArrays arrays(const std::vector<Seed> &seeds)
-  {
-    GrainArrays grains;
-    grains.resize(seeds.size());
-    for (std::size_t k = 0; k < seeds.size(); ++k)
-      {
-        grains.id[k]     = static_cast<GrainId>(k);
-        grains.x[k]      = seeds[k].x;
-        grains.y[k]      = seeds[k].y;
-        grains.radius[k] = seeds[k].radius;
-        grains.mass[k]   = seeds[k].density * M_PI * seeds[k].radius * seeds[k].radius;
-      }
-    return grains;
-  }
+  using test::arrays, test::make;
 
   /** Nobody overlaps a wall or another; and let go, hardly anybody moves. */
   void expect_at_rest(const std::vector<Seed> &seeds, const DepositContext &c)
