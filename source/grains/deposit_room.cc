@@ -1,4 +1,5 @@
 #include <alluvium/grains/deposit_room.h>
+#include <alluvium/grains/wall_crossing.h>
 #include <alluvium/utilities/checked_file.h>
 
 #include <algorithm>
@@ -105,12 +106,8 @@ namespace alluvium::grains
     // a ray to the right crosses the boundary an odd number of times
     bool result = false;
     for (const unsigned int k : in_row[row(y)])
-      {
-        const WallSegment &side = boundary[k];
-        if ((side.a[1] > y) != (side.b[1] > y) &&
-            side.a[0] + (y - side.a[1]) / (side.b[1] - side.a[1]) * (side.b[0] - side.a[0]) > x)
-          result = !result;
-      }
+      if (const auto at = crossing(boundary[k], y); at && *at > x)
+        result = !result;
     return result;
   }
 
@@ -139,11 +136,8 @@ namespace alluvium::grains
         const double y = box.lower[1] + (line + 0.5) / n_lines * box.height();
         crossings.clear();
         for (const unsigned int k : in_row[row(y)])
-          if (const WallSegment &side = boundary[k]; (side.a[1] > y) != (side.b[1] > y))
-            crossings.push_back(
-              std::clamp(side.a[0] + (y - side.a[1]) / (side.b[1] - side.a[1]) * (side.b[0] - side.a[0]),
-                         box.lower[0],
-                         box.upper[0]));
+          if (const auto at = crossing(boundary[k], y))
+            crossings.push_back(std::clamp(*at, box.lower[0], box.upper[0]));
         std::sort(crossings.begin(), crossings.end());
         for (std::size_t k = 0; k + 1 < crossings.size(); k += 2)
           length += crossings[k + 1] - crossings[k];

@@ -1,3 +1,4 @@
+#include <alluvium/grains/wall_crossing.h>
 #include <alluvium/mesh/bisection.h>
 #include <alluvium/mesh/domain.h>
 #include <alluvium/mesh/gmsh_file.h>
@@ -293,8 +294,7 @@ namespace alluvium::mesh
         if (grains::distance_to(side, x, y) <= tolerance)
           return true;
         // a ray to the right crosses the boundary an odd number of times; both faces of a crack count
-        if ((side.a[1] > y) != (side.b[1] > y) &&
-            side.a[0] + (y - side.a[1]) / (side.b[1] - side.a[1]) * (side.b[0] - side.a[0]) > x)
+        if (const auto at = grains::crossing(side, y); at && *at > x)
           inside = !inside;
       }
     return inside;

@@ -86,8 +86,7 @@ namespace alluvium::scene
     Words read_words(const std::string &text)
     {
       Words              result;
-      std::string        spaced = text;
-      std::istringstream in(spaced);
+      std::istringstream in(text);
       bool               begun = false;
       for (std::string word; in >> word;)
         {

@@ -311,6 +311,16 @@ TEST(Contacts, MovingWalls)
   EXPECT_NEAR(piston.stepper.walls()[0].a[1], 1e-4, 1e-15);
 }
 
+/** How many of @p walls a disc of radius 0.1 at (@p x, @p y) touches. */
+static int n_touched(const WallGeometry &walls, const double x, const double y)
+{
+  int          n = 0;
+  ContactPoint p;
+  for (std::size_t k = 0; k < walls.segments().size(); ++k)
+    n += walls.touch(k, x, y, 0.1, p) && p.gap < 0.01;
+  return n;
+}
+
 TEST(Contacts, CornersCountOnce)
 {
   WallGeometry walls;
@@ -318,13 +328,7 @@ TEST(Contacts, CornersCountOnce)
              {{{1., 0.}}, {{1., 1.}}, {{0., 0.}}, "b"},
              {{{1., 1.}}, {{2., 1.}}, {{0., 0.}}, "c"},
              {{{2., 1.}}, {{3., 1.}}, {{0., 0.}}, "d"}});
-  const auto count = [&](const double x, const double y) {
-    int          n = 0;
-    ContactPoint p;
-    for (std::size_t k = 0; k < walls.segments().size(); ++k)
-      n += walls.touch(k, x, y, 0.1, p) && p.gap < 0.01;
-    return n;
-  };
+  const auto count = [&](const double x, const double y) { return n_touched(walls, x, y); };
   EXPECT_EQ(count(0.9, 0.1), 2);   // inside a corner: two walls
   EXPECT_EQ(count(0.93, 1.07), 1); // around the outer corner of b and c: their shared end, once
   EXPECT_EQ(count(2., 1.1), 1);    // on the joint of two segments in line
@@ -346,14 +350,8 @@ TEST(Contacts, CornersCountOnce)
 TEST(Contacts, WallsThatLieOnOneAnotherCountOnce)
 {
   WallGeometry walls;
-  const auto   count = [&](const double x, const double y) {
-    int          n = 0;
-    ContactPoint p;
-    for (std::size_t k = 0; k < walls.segments().size(); ++k)
-      n += walls.touch(k, x, y, 0.1, p) && p.gap < 0.01;
-    return n;
-  };
-  const auto at = [](const double ax, const double ay, const double bx, const double by) {
+  const auto   count = [&](const double x, const double y) { return n_touched(walls, x, y); };
+  const auto   at    = [](const double ax, const double ay, const double bx, const double by) {
     return WallSegment{{{ax, ay}}, {{bx, by}}, {{0., 0.}}, "w"};
   };
   // both faces of a crack

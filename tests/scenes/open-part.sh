@@ -1,24 +1,13 @@
 #!/bin/bash
 # A named part of a side that is open to grains: they leave through it and nowhere else, and are counted under its name.
 . "$SCENES/functions"
-scene_from bed <<'END'
+scene_from dry-bed <<'END'
 subsection Time
   set End time = 0.1
 end
 subsection Domain
   set Named parts    = hole = bottom: 0.001 < x < 0.003
   set Open to grains = hole
-end
-subsection Fluid
-  set Model = none
-end
-subsection Grains
-  set Fluid packing fraction = 0
-end
-subsection Contacts
-  set Residual tolerance = 1e-5
-  set Largest violation  = 1e-3
-  set Loose factor       = 10
 end
 subsection Output
   set Observers            = motion, bed, leavers
@@ -27,7 +16,7 @@ subsection Output
 end
 END
 for ranks in 1 2; do
-  must_run $ranks bed.prm --set "Output/Output folder=out-$ranks"
+  must_run $ranks dry-bed.prm --set "Output/Output folder=out-$ranks"
   /usr/bin/python3 - out-$ranks <<'END' || fail "out-$ranks"
 import csv, json, os, sys
 sys.path.insert(0, os.environ["SCENES"] + "/../../contrib")
@@ -56,8 +45,8 @@ assert 0 <= left["hole"]["number"] - gone <= 5, (gone, left)
 END
 done
 cmp out-1/statistics.csv out-2/statistics.csv || fail "two ranks differ"
-must_run 1 bed.prm --set 'Output/Output folder=half' --set 'Time/End time=0.04'
-must_run 1 bed.prm --set 'Output/Output folder=half' --set 'Output/Restart=true'
+must_run 1 dry-bed.prm --set 'Output/Output folder=half' --set 'Time/End time=0.04'
+must_run 1 dry-bed.prm --set 'Output/Output folder=half' --set 'Output/Restart=true'
 cmp out-1/statistics.csv half/statistics.csv || fail "a restart differs"
 # the same side with another hole, beside the bed's middle: nobody leaves where it is closed
-must_fail "no boundary named 'whole'" 1 bed.prm --set 'Output/Output folder=no' --set 'Domain/Open to grains=whole'
+must_fail "no boundary named 'whole'" 1 dry-bed.prm --set 'Output/Output folder=no' --set 'Domain/Open to grains=whole'
