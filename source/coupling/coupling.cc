@@ -1,5 +1,6 @@
 #include <alluvium/coupling/coupling.h>
 #include <alluvium/coupling/rotation.h>
+#include <alluvium/fluid/largest_speed.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -245,8 +246,9 @@ namespace alluvium::coupling
     double fastest_grain = 0.;
     for (std::size_t g = 0; g < grains.n(); ++g)
       fastest_grain = std::max(fastest_grain, std::hypot(grains.vx[g], grains.vy[g]));
-    const double speed   = solver->old().block(0).linfty_norm();
-    const bool   is_slow = std::max(change.block(0).linfty_norm(), fastest_grain) <= 1e-2 * speed;
+    const double speed        = fluid::largest_speed(*space, solver->old().block(0)),
+                 acceleration = fluid::largest_speed(*space, change.block(0)); // times dt
+    const bool is_slow        = std::max(acceleration, fastest_grain) <= 1e-2 * speed;
     // what interpolation leaves in a few cells is less than what finding the flow anew does to accelerating grains
     constexpr double small_share = 0.2;
     if (!is_slow && share < small_share)
@@ -257,8 +259,11 @@ namespace alluvium::coupling
     find_state(state);
     // slow: a step so long that only the acceleration that is given is left; else so long that the slip finds its own
     constexpr double longest = 1e3, n_relaxations = 3.;
-    const double     factor = is_slow ? longest : std::clamp(n_relaxations * relaxation_time(state) / dt, 1., longest);
-    state.dt                = factor * dt;
+    double           factor = is_slow ? longest : std::clamp(n_relaxations * relaxation_time(state) / dt, 1., longest);
+    // but no longer than the flow needs to become another one: what is not balanced would carry it anywhere
+    if (factor * acceleration > speed)
+      factor = std::max(1., speed / acceleration);
+    state.dt = factor * dt;
     if (added_mass > 0.)
       find_acceleration(state);
     fluid::BlockVector inertia = solver->old();

@@ -57,7 +57,7 @@ namespace alluvium::grains
           throw Divergence("The position, the velocity or the load of grain " + std::to_string(grains.id[k]) +
                            " is not a finite number.");
       }
-    const double n_substeps = std::ceil(dt * std::sqrt(speed) / largest_move);
+    const double n_substeps = std::ceil(dt * std::sqrt(speed) / largest_move * (1. - 1e-10));
     if (n_substeps > 1e6)
       throw Divergence("A grain moves at " + std::to_string(std::sqrt(speed)) +
                        " m/s: one step would need more than a million contact sub-steps.");

@@ -185,7 +185,7 @@ namespace alluvium::grains
         for (const auto &end : {w.a, w.b})
           arm = std::max(arm, std::hypot(end[0] - w.centre[0], end[1] - w.centre[1]));
         const double most = std::min(0.1, std::sqrt(0.1 * smallest_diameter / arm)); // [rad]
-        n                 = std::max(n, std::ceil(std::abs(spin) * dt / most));
+        n                 = std::max(n, std::ceil(std::abs(spin) * dt / most * (1. - 1e-10)));
       }
     if (n > 1e6)
       throw Divergence("A wall turns so fast that one step would need more than a million contact sub-steps.");

@@ -127,22 +127,37 @@ namespace alluvium::grains
   {
     if (boundary.empty())
       return box.width() * box.height();
-    // lines across the box, and where they leave and enter the domain
-    constexpr unsigned int n_lines = 4000;
-    double                 length  = 0.;
-    std::vector<double>    crossings;
-    for (unsigned int line = 0; line < n_lines; ++line)
+    // Between the levels where the boundary bends, or crosses the box's left or right, the width in the domain is
+    // linear in y: the line in the middle has the mean.
+    std::vector<double> levels{box.lower[1], box.upper[1]};
+    const auto          add = [&](const double y) {
+      if (y > box.lower[1] && y < box.upper[1])
+        levels.push_back(y);
+    };
+    for (const WallSegment &w : boundary)
       {
-        const double y = box.lower[1] + (line + 0.5) / n_lines * box.height();
+        add(w.a[1]);
+        add(w.b[1]);
+        for (const double x : {box.lower[0], box.upper[0]})
+          if ((w.a[0] - x) * (w.b[0] - x) < 0.)
+            add(w.a[1] + (x - w.a[0]) / (w.b[0] - w.a[0]) * (w.b[1] - w.a[1]));
+      }
+    std::sort(levels.begin(), levels.end());
+    levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+    double              area = 0.;
+    std::vector<double> crossings;
+    for (std::size_t l = 0; l + 1 < levels.size(); ++l)
+      {
+        const double y = 0.5 * (levels[l] + levels[l + 1]), height = levels[l + 1] - levels[l];
         crossings.clear();
         for (const unsigned int k : in_row[row(y)])
           if (const auto at = crossing(boundary[k], y))
             crossings.push_back(std::clamp(*at, box.lower[0], box.upper[0]));
         std::sort(crossings.begin(), crossings.end());
         for (std::size_t k = 0; k + 1 < crossings.size(); k += 2)
-          length += crossings[k + 1] - crossings[k];
+          area += height * (crossings[k + 1] - crossings[k]);
       }
-    return length * box.height() / n_lines;
+    return area;
   }
 
 

@@ -157,7 +157,7 @@ namespace alluvium::grains
   {
     ContactReport     report;
     const std::size_t n       = grains.n();
-    const double      n_steps = std::ceil(dt * steps_per_collision / collision_time(grains));
+    const double      n_steps = std::ceil(dt * steps_per_collision / collision_time(grains) * (1. - 1e-10));
     if (n_steps > 1e7)
       throw UserError(
         "Contacts/Soft spheres/Stiffness: one step of the fluid would need more than 10 million sub-steps.");

@@ -131,7 +131,8 @@ namespace alluvium::mesh
       return result;
 
     // A box may be many columns wide and hold few grains: only columns that have some cost anything.
-    const double n_columns = std::max(1., std::round((right - left) / (8. * d)));
+    // Round-off shall not decide on halves.
+    const double n_columns = std::max(1., std::round((right - left) / (8. * d) + 1e-9));
     const double width     = (right - left) / n_columns;
     struct Levels
     {
@@ -140,11 +141,17 @@ namespace alluvium::mesh
     std::map<double, Levels> columns; // by number
     for (std::size_t i = 0; i < grains.n(); ++i)
       {
-        const double position = (grains.x[i] - left) / width;
-        Levels      &column   = columns[std::floor(std::clamp(position, 0., n_columns - 1.))];
-        const double r = grains.radius[i], area = pi * r * r;
-        column.bottoms.emplace_back(grains.y[i] - r, area);
-        column.tops.emplace_back(-grains.y[i] - r, area); // negative: from the top down
+        // one between two columns belongs to both, or round-off would choose
+        constexpr double round_off = 1e-9;
+        const double     position  = (grains.x[i] - left) / width;
+        const auto       number_at = [&](const double p) { return std::floor(std::clamp(p, 0., n_columns - 1.)); };
+        const double     first = number_at(position - round_off), last = number_at(position + round_off);
+        const double     r = grains.radius[i], area = pi * r * r / (last - first + 1.);
+        for (double c = first; c <= last; ++c)
+          {
+            columns[c].bottoms.emplace_back(grains.y[i] - r, area);
+            columns[c].tops.emplace_back(-grains.y[i] - r, area); // negative: from the top down
+          }
       }
     const double quarter_layer = 0.25 * d * width;
     for (auto &[c, levels] : columns)

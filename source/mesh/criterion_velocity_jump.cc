@@ -1,7 +1,8 @@
+#include <alluvium/fluid/cell_order.h>
+#include <alluvium/fluid/largest_speed.h>
 #include <alluvium/mesh/marked_criterion.h>
 #include <alluvium/utilities/plugin.h>
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/component_mask.h>
 #include <deal.II/grid/tria.h>
@@ -37,9 +38,8 @@ namespace alluvium::mesh
     private:
       void mark(const RefinementContext &context) override
       {
-        const fluid::FluidSpace<2> &space    = context.fluid->space;
-        const auto                 &velocity = context.fluid->solution.block(0);
-        const double largest = dealii::Utilities::MPI::max(largest_entry(velocity), space.communicator());
+        const fluid::FluidSpace<2> &space   = context.fluid->space;
+        const double                largest = fluid::largest_speed(space, context.fluid->solution.block(0));
         if (largest == 0.)
           return;
         dealii::Vector<float> estimate(space.triangulation().n_active_cells());
@@ -51,7 +51,7 @@ namespace alluvium::mesh
                                                  estimate,
                                                  dealii::ComponentMask({true, true, false}));
         unsigned int c = 0;
-        for (const auto &cell : space.triangulation().active_cell_iterators())
+        for (const auto &cell : fluid::ordered_cells(space.dof_handler())) // as space.cells()
           if (cell->is_locally_owned())
             {
               const auto  &data   = space.cells()[c++];
@@ -60,14 +60,6 @@ namespace alluvium::mesh
               const Box    box    = box_around(data, space.n_nodes_per_cell());
               marks.add(box, wanted);
             }
-      }
-
-      static double largest_entry(const fluid::Vector &vector)
-      {
-        double result = 0.;
-        for (unsigned int i = 0; i < vector.locally_owned_size(); ++i)
-          result = std::max(result, std::abs(vector.local_element(i)));
-        return result;
       }
 
       double tolerance = 0.02;

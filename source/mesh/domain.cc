@@ -396,7 +396,8 @@ namespace alluvium::mesh
         side = std::min(side, length / cells);
       }
     for (unsigned int d = 0; d < dim; ++d)
-      n[d] = std::max(1., std::round((upper_corner[d] - lower_corner[d]) / side));
+      // halves are rounded up, whatever the last digits of a shifted domain say
+      n[d] = std::max(1., std::round((upper_corner[d] - lower_corner[d]) / side + 1e-9));
     GridGenerator::subdivided_hyper_rectangle(triangulation, n, lower_corner, upper_corner, true);
   }
 

@@ -1,3 +1,4 @@
+#include <alluvium/fluid/largest_speed.h>
 #include <alluvium/observers/observer.h>
 
 #include <nlohmann/json.hpp>
@@ -47,7 +48,8 @@ namespace alluvium::observers
         statistics.set("kinetic_energy_J_per_m", energy);
         if (s.fluid)
           {
-            statistics.set("largest_fluid_velocity_m_per_s", s.fluid->solver.solution().block(0).linfty_norm());
+            statistics.set("largest_fluid_velocity_m_per_s",
+                           fluid::largest_speed(s.fluid->space, s.fluid->solver.solution().block(0)));
             statistics.set("smallest_void_fraction", s.fluid->coupling.report().eps_min);
             statistics.set("largest_void_fraction", s.fluid->coupling.report().eps_max);
           }

@@ -8,15 +8,30 @@ namespace alluvium::run
 {
   namespace
   {
+    /** A list of names in quotes, each once. */
+    struct QuotedNames
+    {
+      std::string text;
+
+      bool contains(const std::string &name) const { return text.find("'" + name + "'") != std::string::npos; }
+
+      void add(const std::string &name)
+      {
+        if (!contains(name))
+          text += (text.empty() ? "'" : ", '") + name + "'";
+      }
+    };
+
+
     /** Names of extra walls that grains lie on: at most a tenth of a radius above them, along gravity. */
     std::string floors_inside(const Model &m)
     {
-      std::string  names;
+      QuotedNames  names;
       const double g = m.gravity_size();
       for (const auto &wall : m.contacts.walls())
         {
           if (!(g > 0.) || m.domain.boundary_ids().count(wall.name) > 0 || grains::ever_acts(wall) ||
-              names.find("'" + wall.name + "'") != std::string::npos)
+              names.contains(wall.name))
             continue;
           const double x0 = std::min(wall.a[0], wall.b[0]), x1 = std::max(wall.a[0], wall.b[0]),
                        y0 = std::min(wall.a[1], wall.b[1]), y1 = std::max(wall.a[1], wall.b[1]);
@@ -31,36 +46,32 @@ namespace alluvium::run
                                   (wall.a[1] + t * (wall.b[1] - wall.a[1]) - y) * m.gravity[1];
               if (down < 0.5 * g * r)
                 continue;
-              names += (names.empty() ? "'" : ", '") + wall.name + "'";
+              names.add(wall.name);
               break;
             }
         }
-      return names;
+      return names.text;
     }
   } // namespace
 
 
   void check_walls(Model &m)
   {
-    std::string acting, sides;
+    QuotedNames acting, sides;
     for (const auto &wall : m.contacts.walls())
       if (grains::ever_acts(wall))
-        {
-          std::string &list = m.domain.boundary_ids().count(wall.name) > 0 ? sides : acting;
-          if (list.find("'" + wall.name + "'") == std::string::npos)
-            list += (list.empty() ? "'" : ", '") + wall.name + "'";
-        }
+        (m.domain.boundary_ids().count(wall.name) > 0 ? sides : acting).add(wall.name);
     const std::string resting = m.has_fluid && m.grains_move ? floors_inside(m) : "";
     const auto        warn    = [&](const std::string &text) { m.warnings.add(text, m.time); };
-    if (!m.grains_move && !(acting + sides).empty())
+    if (!m.grains_move && !(acting.text.empty() && sides.text.empty()))
       warn("Grains/Fixed = true: walls stay where they are, too; their motion is ignored");
     else if (m.has_fluid)
       {
-        if (!acting.empty())
-          warn("the fluid does not see the walls " + acting +
+        if (!acting.text.empty())
+          warn("the fluid does not see the walls " + acting.text +
                ": it flows through them, and their motion moves grains only");
-        if (!sides.empty())
-          warn("the fluid does not see the sides " + sides +
+        if (!sides.text.empty())
+          warn("the fluid does not see the sides " + sides.text +
                " move: its domain and its boundary conditions stay as they are, only grains are moved");
         if (!resting.empty())
           warn(

@@ -46,7 +46,10 @@ namespace alluvium::run
     }
 
 
-    /** Names and formulas, before grains and mesh take their time. */
+    /**
+     * Names and formulas, before grains and mesh take their time; set_up_fluid() reads the formulas once more, with the
+     * grains' L and d, which are 0 before.
+     */
     void look_at_boundary_conditions(Model &m)
     {
       m.boundary_conditions.initialize(m.domain.boundary_ids(), formula_constants(m));

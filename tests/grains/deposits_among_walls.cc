@@ -149,7 +149,7 @@ TEST(DepositsAmongWalls, ObstacleOfTheMesh)
   // Suspensions and lattices leave it out; the area fraction is that of the room there is.
   const DepositRoom room(c, {c.lower, c.upper}, 0.5 * d, 0.5 * d);
   const double      area = 6e-3 * 8e-3 - 1e-6 - (1.5e-6 + 0.5 * 1.5e-3 * 0.5e-3);
-  EXPECT_NEAR(room.area(), area, 1e-4 * area);
+  EXPECT_NEAR(room.area(), area, 1e-12 * area);
   const auto cloud = make("random suspension", "set Area fraction = 0.3\nset Smallest gap = 1e-5", c);
   double     solid = 0.;
   for (const Seed &s : cloud)

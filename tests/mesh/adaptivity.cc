@@ -92,6 +92,31 @@ namespace
     EXPECT_TRUE(find_bed_faces(grains::GrainArrays(), 0., 1.).empty());
   }
 
+  TEST(BedFaces, DoNotHangOnRoundOff)
+  {
+    // a box one and a half columns wide: two, also shifted and in other units
+    const auto height = [](const double factor, const double shift) {
+      grains::GrainArrays grains;
+      grains.x = {2. * factor + shift, 6. * factor + shift, 9. * factor + shift};
+      grains.y = {0., 2. * std::abs(factor), 6. * std::abs(factor)};
+      grains.resize(3);
+      grains.radius.assign(3, 2.2 * std::abs(factor));
+      const double left = shift + std::min(0., 12. * 4.4 * factor), right = shift + std::max(0., 12. * 4.4 * factor);
+      return find_bed_faces(grains, left, right).columns.size() * 100. +
+             find_bed_faces(grains, left, right).mean_height() / std::abs(factor);
+    };
+    for (const double factor : {0.1, 0.3, 0.7, 1.3, 1e-3, 1. / 7.})
+      for (const double shift : {0., 0.1, 1. / 3., 12345.678})
+        EXPECT_NEAR(height(factor, shift), height(1., 0.), 1e-6) << factor << ' ' << shift;
+    const auto between = [](const double offset) {
+      auto grains = make_bed(d, 0., 0.5);
+      for (double &x : grains.x)
+        x += d / 2. + offset; // those of every eighth line of grains stand between columns
+      return find_bed_faces(grains, 0., 1.).mean_height();
+    };
+    EXPECT_NEAR(between(1e-12), between(-1e-12), 1e-9);
+  }
+
   TEST(BedFaces, FollowAStep)
   {
     auto grains = make_bed(d, 0., 0.5);
@@ -292,15 +317,28 @@ namespace
     EXPECT_TRUE(contains(bad("x - 0.5"), "sizes must be positive"));
   }
 
-  /** Fields given by functions on the unit square's uniform mesh of side 1/16, and what a criterion makes of them. */
+  /**
+   * Fields given by functions on the unit square's mesh of side 1/16, half of that in its corner at (0, 0) if @p
+   * fine_corner, and what a criterion makes of them.
+   */
   struct FieldScene
   {
-    FieldScene(const Parameters &parameters, const std::string &flow, const std::string &void_fraction)
+    FieldScene(const Parameters  &parameters,
+               const std::string &flow,
+               const std::string &void_fraction,
+               const bool         fine_corner = false)
     {
       set_parameters(adaptivity, prm, parameters);
       domain.initialize(MPI_COMM_WORLD, "");
       mesh = domain.make_triangulation(1. / 8.);
       mesh->refine_global(1);
+      if (fine_corner)
+        {
+          for (const auto &cell : mesh->active_cell_iterators())
+            if (cell->is_locally_owned() && cell->center().norm() < 0.25)
+              cell->set_refine_flag();
+          mesh->execute_coarsening_and_refinement();
+        }
       set_parameters(
         boundaries,
         boundary_prm,
@@ -363,6 +401,14 @@ namespace
     EXPECT_LE(sizes_around(*scene.mesh, 0.5, 0.5)[0] / d, 2. + 1e-6);
     EXPECT_GE(sizes_around(*scene.mesh, 0.5, 0.1)[0] / d, 4.);
     EXPECT_GE(sizes_around(*scene.mesh, 0.5, 0.9)[0] / d, 4.);
+    // cells of several sizes: each error is that of its own cell
+    const FieldScene mixed({{"Mesh refinement/Criteria", "velocity jump"}}, "tanh(30*(y - 0.5)); 0; 0", "1", true);
+    for (const double x : {0.1, 0.5, 0.9})
+      {
+        EXPECT_LE(sizes_around(*mixed.mesh, x, 0.5)[0] / d, 2. + 1e-6);
+        EXPECT_GE(sizes_around(*mixed.mesh, x, 0.9)[0] / d, 4.);
+      }
+    EXPECT_GE(sizes_around(*mixed.mesh, 0.5, 0.1)[0] / d, 4.);
     // the estimator sees no error in what the elements hold exactly
     const FieldScene linear({{"Mesh refinement/Criteria", "velocity jump"}}, "x + y; -y; 0", "1");
     EXPECT_NEAR(linear.report.smallest / d, 8., 1e-6);

@@ -1,6 +1,7 @@
 #include "test_mesh.h"
 
 #include <alluvium/fluid/fluid_space.h>
+#include <alluvium/fluid/largest_speed.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -32,6 +33,12 @@ namespace
         fluid::Vector one = space.make_nodal_field();
         one               = 1.;
         EXPECT_NEAR(space.node_volumes() * one, 0.75, 1e-12) << name;
+        // 5 for components of 3 and 4
+        fluid::BlockVector field = space.make_field();
+        for (unsigned int i = 0; i < field.block(0).locally_owned_size(); ++i)
+          field.block(0).local_element(i) = i % 2 == 0 ? -3. : 4.;
+        field.update_ghost_values();
+        EXPECT_NEAR(fluid::largest_speed(space, field.block(0)), 5., 1e-12) << name;
         const auto n_cells =
           dealii::Utilities::MPI::sum(static_cast<unsigned int>(space.cells().size()), MPI_COMM_WORLD);
         EXPECT_EQ(n_cells, triangulation->n_global_active_cells()) << name;
