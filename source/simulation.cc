@@ -1,4 +1,5 @@
 #include <alluvium/run/check_boundaries.h>
+#include <alluvium/run/check_time_step.h>
 #include <alluvium/run/check_walls.h>
 #include <alluvium/run/checkpoint.h>
 #include <alluvium/run/leavers.h>
@@ -122,6 +123,7 @@ namespace alluvium
                  " s, and Time/End time = " + in_digits(end_time) + " s has passed: nothing is left to do.");
     run::check_boundaries(model, end_time);
     run::check_walls(model);
+    run::check_time_step(model, end_time);
     output.choose_observers();
     if (writes && !restart)
       output.make_folder(false);

@@ -1,4 +1,5 @@
 #include <alluvium/mesh/fluid_checkpoint.h>
+#include <alluvium/mesh/p4est_abort.h>
 #include <alluvium/utilities/atomic_file.h>
 #include <alluvium/utilities/checked_file.h>
 #include <alluvium/utilities/first_rank.h>
@@ -150,6 +151,8 @@ namespace alluvium::mesh
         std::filesystem::remove(path);
     });
 
+    const double n_values = block_fields.size() * system.get_fe().n_dofs_per_cell() +
+                            nodal_fields.size() * nodal.get_fe().n_dofs_per_cell(); // a cell
     if (distributed)
       {
         parallel::distributed::SolutionTransfer<dim, BlockVector> block_transfer(system);
@@ -162,12 +165,10 @@ namespace alluvium::mesh
           block_transfer.prepare_for_serialization(block_fields);
         if (!nodal_fields.empty())
           nodal_transfer.prepare_for_serialization(nodal_fields);
-        // p4est aborts where it cannot write
-        check_room(communicator,
-                   file(mesh_name),
-                   bytes_of(triangulation,
-                            double(block_fields.size() * system.get_fe().n_dofs_per_cell() +
-                                   nodal_fields.size() * nodal.get_fe().n_dofs_per_cell())));
+        check_room(communicator, file(mesh_name), bytes_of(triangulation, n_values));
+        // the disk may still fill up between the trial and the write
+        const P4estAbort    ends(communicator,
+                              "cannot write '" + file(mesh_name) + "': there is hardly any room left on the disk.");
         const WorkingFolder here(folder);
         distributed->save(mesh_name);
       }
@@ -187,9 +188,14 @@ namespace alluvium::mesh
       std::ostringstream text;
       text << (distributed ? "distributed" : "replicated") << " " << checksum_of(triangulation) << " "
            << block_fields.size() << " " << nodal_fields.size() << "\n";
+      // deal.II does not look whether what it wrote is there
+      const double n_bytes = 8. * n_values * triangulation.n_global_active_cells();
       for (const auto &path : mesh_files(folder))
         {
           const std::string content = content_of(path);
+          const bool        is_data = path.extension() == ".data";
+          check_user(!content.empty() && (!is_data || content.size() >= n_bytes),
+                     "cannot write '" + path.string() + "': there is hardly any room left on the disk.");
           text << content.size() << " " << crc32(content) << " " << path.filename().string() << "\n";
         }
       manifest = text.str();
@@ -233,6 +239,7 @@ namespace alluvium::mesh
           check_user(crc32(content) == crc, "'" + path + "' is damaged: its checksum does not match.");
         }
     });
+    const P4estAbort    ends(communicator, "'" + file(mesh_name) + "' cannot be read.");
     const WorkingFolder here(folder);
     distributed->load(mesh_name);
   }

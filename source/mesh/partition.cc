@@ -4,7 +4,9 @@
 #include <deal.II/distributed/shared_tria.h>
 #include <deal.II/distributed/tria.h>
 
+#include <algorithm>
 #include <set>
+#include <stdexcept>
 
 namespace alluvium::mesh
 {
@@ -86,6 +88,8 @@ namespace alluvium::mesh
   {
     n_ranks = reader.get<unsigned int>();
     owners  = reader.get_vector<types::subdomain_id>();
+    if (std::any_of(owners.begin(), owners.end(), [&](const auto owner) { return owner >= n_ranks; }))
+      throw std::runtime_error("A cell belongs to no rank.");
     last_cells.clear();
     for (auto n = reader.get<std::uint64_t>(); n > 0; --n)
       last_cells.push_back(reader.get_string());

@@ -181,6 +181,8 @@ namespace alluvium::run
         m.clock = {m.time, m.n_steps, m.time_step};
 
       cells.load(history);
+      if (state.at("ranks") != cells.n_ranks && m.has_fluid)
+        throw std::runtime_error("The cells are those of other ranks.");
       m.touched = history.get_vector<std::uint8_t>();
       m.contacts.load(history);
     });

@@ -3,6 +3,7 @@
 
 #include <alluvium/mesh/adaptivity.h>
 #include <alluvium/mesh/fluid_checkpoint.h>
+#include <alluvium/mesh/partition.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/grid/tria_accessor.h>
@@ -34,6 +35,23 @@ namespace
       return std::sin(13. * p[0] + component) * std::cos(17. * p[1] * p[0]);
     }
   };
+
+  TEST(Partition, OfOtherRanksIsNoPartition)
+  {
+    for (const unsigned int owner : {2u, 3u, 0xffffffffu})
+      {
+        Partition partition;
+        partition.n_ranks = 3;
+        partition.owners  = {0, owner, 1};
+        ByteWriter writer;
+        partition.save(writer);
+        ByteReader reader(writer.bytes);
+        if (owner < 3)
+          EXPECT_NO_THROW(partition.load(reader));
+        else
+          EXPECT_THROW(partition.load(reader), std::runtime_error);
+      }
+  }
 
   /** A mesh with fields on the ranks of one communicator. */
   struct FluidRun

@@ -35,6 +35,24 @@ for text in 'left: slip, a wall for grains' 'bottom: pressure rho\*g\*H.*, a wal
   grep -q -- "$text" screen-output || fail "missing: $text"
 done
 
+# A time step above the limit of a scheme that has one: 2 eps^2 (1 - r) tau_p, r = (1 - eps)/(eps s); none in a bed of r > 1
+limit_of() { # ARGUMENTS...
+  must_run 1 --check "$@"
+  grep -o 'unstable with it at .*time step.*, 2 eps\|unstable with it at any time step' error-output || true
+}
+suspension=("$SCENES/suspension.prm" --set 'Coupling/Time scheme=explicit')
+found=$(limit_of "${suspension[@]}" --set 'Time/Time step=0.01')
+/usr/bin/python3 - "$found" "$(number 'bed of void fraction ([0-9.e-]+)')" "$(number 'tau_p [(]([0-9.e-]+) s')" <<'END' || fail "limit of the time step: '$found'"
+import re, sys
+eps, tau_p = map(float, sys.argv[2:])
+limit = 2 * eps**2 * (1 - (1 - eps) / eps / 2.63) * tau_p
+assert abs(float(re.search(r"above ([0-9.e-]+) s", sys.argv[1])[1]) / limit - 1) < 0.05, limit
+END
+[ -z "$(limit_of "${suspension[@]}" --set 'Time/Time step=0.001')" ] || fail "a warning of a time step that is stable"
+[ -z "$(limit_of "$SCENES/suspension.prm" --set 'Time/Time step=0.01')" ] || fail "a warning of a scheme without a limit"
+[ "$(limit_of bed.prm --set 'Coupling/Time scheme=implicit drag' --set 'Grains/Fluid packing fraction=0')" = \
+  'unstable with it at any time step' ] || fail "no warning of a bed that has no stable time step"
+
 # Darcy's law of the run
 must_run 1 bed.prm --set 'Grains/Fixed=true' --set 'Time/Time step=0.01' --set 'Time/End time=0.2' --set 'Boundary conditions/Pressure=top: 0; bottom: rho*g*H + 0.05*rho*g*L'
 /usr/bin/python3 - "$(number 'permeability ([0-9.e-]+) m')" "$(number 'bed +([0-9.e-]+) m to')" "$(number 'bed +[0-9.e-]+ m to ([0-9.e-]+) m')" <<'END' || fail "the permeability is not the run's"

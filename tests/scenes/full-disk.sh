@@ -55,6 +55,48 @@ if unshare -m true 2>/dev/null && mount -t tmpfs -o size=4k tmpfs small 2>/dev/n
     listed_is_whole small/out
     umount small
   done
+  # one that fills up after the trial for p4est's file, which would abort: the checkpoint before is the one that is kept
+  cat >fill.c <<'END'
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+int remove(const char *path)
+{
+  static int n_trials = 0;
+  const int  result = ((int (*)(const char *))dlsym(RTLD_NEXT, "remove"))(path);
+  if (strstr(path, "checkpoint.new/fluid_mesh.tmp") && ++n_trials == 3)
+    {
+      static char block[4096] = {1};
+      const int   file = open(getenv("FILLER"), O_CREAT | O_WRONLY, 0600);
+      while (write(file, block, sizeof block) > 0)
+        ;
+      close(file);
+    }
+  return result;
+}
+END
+  if cc -shared -fPIC -o fill.so fill.c -ldl 2>/dev/null; then
+    for ranks in 1 2; do
+      mount -t tmpfs -o size=3000k tmpfs small || fail "no tmpfs"
+      (
+        export LD_PRELOAD=$PWD/fill.so FILLER=$mount/filler
+        alluvium $ranks tiny.prm "${pictures[@]:2}" --set "Output/Output folder=$mount/out"
+      )
+      code=$?
+      [ $code -eq 1 ] || fail "exit code $code of a disk that fills up under p4est on $ranks rank(s)"
+      [ -f small/filler ] || fail "the disk has not been filled"
+      [ "$(grep -c "^alluvium: error: cannot write '$mount/out/checkpoint.new/fluid_mesh" error-output)" -eq 1 ] ||
+        fail "expected one line 'alluvium: error: cannot write ...fluid_mesh...'"
+      rm small/filler
+      must_run $ranks tiny.prm --set "Output/Output folder=$mount/out" --set Output/Restart=true
+      grep -q "Continues from t = 0.004 s" screen-output error-output || fail "the last good checkpoint is lost"
+      umount small
+    done
+  fi
 else
   (
     ulimit -f 8

@@ -35,6 +35,6 @@ namespace alluvium::mesh
     void apply(dealii::Triangulation<2, 2> &mesh) const;
 
     void save(ByteWriter &writer) const;
-    void load(ByteReader &reader); // throws std::runtime_error if @p reader ends
+    void load(ByteReader &reader); // throws std::runtime_error if that is none
   };
 } // namespace alluvium::mesh
