@@ -95,6 +95,19 @@ TEST(DepositsAmongWalls, WhatDoesNotReachTheBedChangesNothing)
     EXPECT_LT(std::hypot(plain[k].x - lid[k].x, plain[k].y - lid[k].y), 1e-3 * d);
 }
 
+// The area of a room is exact, wherever its corners and the box's are.
+TEST(DepositsAmongWalls, AreaOfTheRoom)
+{
+  const double   y = 1e-3 / 3.;
+  DepositContext c = context({});
+  c.walls.clear();
+  c.sides = polygon({{{0., 0.}}, {{6e-3, 0.}}, {{6e-3, y}}, {{3e-3, 8e-3}}, {{0., y}}});
+  const DepositRoom all(c, {c.lower, c.upper}, 0.5 * d, 0.5 * d);
+  EXPECT_NEAR(all.area() / (6e-3 * y + 3e-3 * (8e-3 - y)), 1., 1e-12);
+  const DepositRoom middle(c, {{{1e-3, 0.}}, {{5e-3, 8e-3}}}, 0.5 * d, 0.5 * d);
+  EXPECT_NEAR(middle.area() / (4e-3 * y + 8e-3 / 3. * (8e-3 - y)), 1., 1e-12);
+}
+
 // A sheet pile from above: grains on both sides of it, and below it.
 TEST(DepositsAmongWalls, Pile)
 {
