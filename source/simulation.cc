@@ -12,6 +12,7 @@
 #include <alluvium/scene/declared_parameters.h>
 #include <alluvium/simulation.h>
 #include <alluvium/utilities/atomic_file.h>
+#include <alluvium/utilities/digits.h>
 #include <alluvium/utilities/divergence.h>
 #include <alluvium/utilities/progress.h>
 #include <alluvium/utilities/signals.h>
@@ -25,17 +26,6 @@
 namespace alluvium
 {
   using namespace dealii;
-
-  namespace
-  {
-    std::string in_digits(const double x)
-    {
-      std::ostringstream text;
-      text << x;
-      return text.str();
-    }
-  } // namespace
-
 
   class Simulation::Implementation
   {

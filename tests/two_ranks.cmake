@@ -1,7 +1,8 @@
 # The rooms whose objects are spread over ranks run their unit tests on several of them as well, each set as one ctest.
 find_program(ALLUVIUM_MPIEXEC NAMES mpiexec mpirun HINTS ${DEAL_II_MPIEXEC})
-foreach(_set "mesh:*:2:two" "fluid:LinearSolver*:2:two" "fluid:LinearSolver*:3:three" "fluid:LinearSolver*:4:four"
-        "grains:Grain*:2:two" "grains:Ranks*:2:two_sharing" "grains:Ranks*:3:three" "grains:Ranks*:4:four")
+foreach(_set "mesh:*:2:two" "refinement:*:2:two" "fluid:*Checkpoint*:2:two_checkpoint" "fluid:FluidSpace*:2:two_space"
+        "fluid:LinearSolver*:2:two" "fluid:LinearSolver*:3:three" "fluid:LinearSolver*:4:four"
+        "grains:Grain*:2:two" "contacts:Ranks*:2:two_sharing" "contacts:Ranks*:3:three" "contacts:Ranks*:4:four")
   string(REPLACE ":" ";" _set ${_set})
   list(GET _set 0 _room)
   list(GET _set 1 _filter)

@@ -1,5 +1,5 @@
-#include <alluvium/coupling/anderson_mixing.h>
 #include <alluvium/coupling/contact_iteration.h>
+#include <alluvium/utilities/anderson_mixing.h>
 
 #include <algorithm>
 #include <cmath>
@@ -66,17 +66,17 @@ namespace alluvium::coupling
   }
 
 
-  grains::ContactReport ContactIteration::advance(grains::GrainArrays         &grains,
-                                                  grains::GrainLoads          &loads,
-                                                  const double                 dt,
-                                                  const std::array<double, 2> &gravity)
+  contacts::ContactReport ContactIteration::advance(grains::GrainArrays         &grains,
+                                                    grains::GrainLoads          &loads,
+                                                    const double                 dt,
+                                                    const std::array<double, 2> &gravity)
   {
     constexpr unsigned int       depth = 5; // of the mixing
     const TimeScheme::Repetition limit = coupling.repetition();
     const bool                   tries = limit.largest_number > 0;
     // the tolerance of 1e-2 bears contacts a hundred times looser, a tight one none
     const double             haste = tries ? std::clamp(1e4 * limit.tolerance, 1., 100.) : 1.;
-    grains::ContactMemory    start;
+    contacts::ContactMemory  start;
     AndersonMixing           mixing(depth);
     std::vector<GrainMotion> motions;
     GrainMotion              guess;

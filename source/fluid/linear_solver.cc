@@ -1,6 +1,7 @@
 #include <alluvium/fluid/block_factors.h>
 #include <alluvium/fluid/linear_solver.h>
 #include <alluvium/fluid/sparse_product.h>
+#include <alluvium/utilities/digits.h>
 #include <alluvium/utilities/divergence.h>
 
 #include <deal.II/base/mpi.h>
@@ -29,13 +30,6 @@ namespace alluvium::fluid
     constexpr unsigned int direct_iterations = 20, direct_solves = 50;
     // and below which the row sums are as good an inverse for the last correction of the velocity
     constexpr double lumping_ratio = 4.;
-
-    std::string in_digits(const double x)
-    {
-      std::ostringstream text;
-      text << x;
-      return text.str();
-    }
 
     double residual_norm(const ScaledMatrix &matrix, const BlockVector &x, const BlockVector &rhs)
     {
@@ -363,8 +357,8 @@ namespace alluvium::fluid
     if (!std::isfinite(norm)) // squares can overflow, too
       throw Divergence("The fluid's right-hand side is not finite.");
     const double target = stop * scale[0];
-    x               = 0.;
-    report.residual = norm / scale[0];
+    x                   = 0.;
+    report.residual     = norm / scale[0];
     if (norm <= target)
       return report;
 

@@ -1,4 +1,5 @@
 #include <alluvium/geometry/disc_polygon_overlap.h>
+#include <alluvium/utilities/constants.h>
 
 #include <deal.II/base/exceptions.h>
 
@@ -9,8 +10,6 @@ namespace alluvium::geometry
 {
   namespace
   {
-    constexpr double pi = 3.14159265358979323846;
-
     /** Area, first moments x, y and second moments xx, xy, yy of a piece about some origin. */
     struct Moments
     {

@@ -1,4 +1,5 @@
 #include <alluvium/geometry/grid_cutter.h>
+#include <alluvium/utilities/constants.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +8,6 @@ namespace alluvium::geometry
 {
   namespace
   {
-    constexpr double pi = 3.14159265358979323846;
-
     /** Weighted area and moments x, y, xy about the centre, in units of the radius. */
     struct QuadrantMoments
     {

@@ -1,4 +1,5 @@
 #include <alluvium/geometry/smooth_disc_overlap.h>
+#include <alluvium/utilities/constants.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +8,8 @@ namespace alluvium::geometry
 {
   namespace
   {
-    constexpr double pi = 3.14159265358979323846;
-
     /** Weighted area, first and second moments about the disc's centre, in units of its radius. */
-    struct Moments
+    struct SmoothMoments
     {
       double area = 0., x = 0., y = 0., xx = 0., xy = 0., yy = 0.;
     };
@@ -23,7 +22,7 @@ namespace alluvium::geometry
     }
 
     /** The triangle from the disc's centre to an edge from a to b within the disc. */
-    inline void add_triangle(Moments &m, const double ax, const double ay, const double bx, const double by)
+    inline void add_triangle(SmoothMoments &m, const double ax, const double ay, const double bx, const double by)
     {
       // Gauss' points and weights on [0, 1]: along an edge the moments are of degree four
       constexpr double point[]  = {0.11270166537925831148, 0.5, 0.88729833462074168852};
@@ -48,7 +47,7 @@ namespace alluvium::geometry
 
     /** The sector from e counter-clockwise to f, both on the circle, with the angle @p turn between them. */
     inline void
-    add_sector(Moments &m, const double ex, const double ey, const double fx, const double fy, const double turn)
+    add_sector(SmoothMoments &m, const double ex, const double ey, const double fx, const double fy, const double turn)
     {
       constexpr double c0 = along_ray<0>(1.), c1 = along_ray<1>(1.), c2 = along_ray<2>(1.);
       const double     bend = 0.5 * (fx * fy - ex * ey);
@@ -106,10 +105,10 @@ namespace alluvium::geometry
       }
 
     // The straight sides of the piece, and where the circle joins them.
-    Moments      sum;
-    Crossing     crossing[8];
-    unsigned int n              = 0;
-    bool         centre_in_cell = true;
+    SmoothMoments sum;
+    Crossing      crossing[8];
+    unsigned int  n              = 0;
+    bool          centre_in_cell = true;
     for (unsigned int i = 0; i < 4; ++i)
       {
         const unsigned int j  = (i + 1) & 3;

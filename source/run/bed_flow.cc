@@ -1,4 +1,4 @@
-#include <alluvium/mesh/bed_faces.h>
+#include <alluvium/grains/bed_faces.h>
 #include <alluvium/run/bed_flow.h>
 #include <alluvium/run/model.h>
 
@@ -37,7 +37,7 @@ namespace alluvium::run
         low  = std::min({low, up.to(side.a)[1], up.to(side.b)[1]});
         high = std::max({high, up.to(side.a)[1], up.to(side.b)[1]});
       }
-    const double reach   = mesh::mean_diameter(m.grains); // the rule of a quarter of a layer leaves some grains outside
+    const double reach = grains::mean_diameter(m.grains); // the rule of a quarter of a layer leaves some grains outside
     unsigned int n_below = 0, n_above = 0, n_beside = 0;
     for (const auto &[id, condition] : m.boundary_conditions.all())
       {

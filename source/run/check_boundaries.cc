@@ -16,8 +16,7 @@ namespace alluvium::run
 
   namespace
   {
-    constexpr int dim = Model::dim;
-    using Kind        = fluid::BoundaryConditions<dim>::Kind;
+    using Kind = fluid::BoundaryConditions<Model::dim>::Kind;
 
     void check_balance(const Model &m, const std::map<types::boundary_id, double> &fluxes, const double time)
     {
@@ -57,9 +56,9 @@ namespace alluvium::run
             if (face.boundary == id)
               for (unsigned int i = 0; i <= 100; ++i)
                 {
-                  const double     s = face.from + 0.01 * i * (face.to - face.from);
-                  const Point<dim> point((1. - s) * face.end[0] + s * face.end[1]);
-                  for (unsigned int d = 0; d < dim; ++d)
+                  const double            s = face.from + 0.01 * i * (face.to - face.from);
+                  const Point<Model::dim> point((1. - s) * face.end[0] + s * face.end[1]);
+                  for (unsigned int d = 0; d < Model::dim; ++d)
                     largest = std::max(largest, std::abs(m.boundary_conditions.value(c, point, d)));
                 }
           check_user(
@@ -90,18 +89,18 @@ namespace alluvium::run
                     if (part.id == id)
                       for (const double s : {part.begin, part.end})
                         {
-                          const Point<dim> x((1. - s) * cell->face(f)->vertex(0) + s * cell->face(f)->vertex(1));
-                          const double     level = -(m.gravity[0] * x[0] + m.gravity[1] * x[1]) / g,
-                                       p         = m.boundary_conditions.value(c, x);
-                          range[0]               = std::min(range[0], level);
-                          range[1]               = std::min(range[1], -level);
-                          range[2]               = std::min(range[2], p);
-                          range[3]               = std::min(range[3], -p);
+                          const Point<Model::dim> x((1. - s) * cell->face(f)->vertex(0) + s * cell->face(f)->vertex(1));
+                          const double            level = -(m.gravity[0] * x[0] + m.gravity[1] * x[1]) / g,
+                                       p                = m.boundary_conditions.value(c, x);
+                          range[0]                      = std::min(range[0], level);
+                          range[1]                      = std::min(range[1], -level);
+                          range[2]                      = std::min(range[2], p);
+                          range[3]                      = std::min(range[3], -p);
                         }
           MPI_Allreduce(MPI_IN_PLACE, range, 4, MPI_DOUBLE, MPI_MIN, m.communicator);
           const double height = -range[0] - range[1], difference = -range[2] - range[3], at_rest = rho * g * height;
           double       largest = 0.;
-          for (unsigned int d = 0; d < dim; ++d)
+          for (unsigned int d = 0; d < Model::dim; ++d)
             largest = std::max(largest, m.domain.upper()[d] - m.domain.lower()[d]);
           if (range[0] == none || height < 1e-6 * largest || std::abs(difference) > 0.01 * at_rest)
             continue;

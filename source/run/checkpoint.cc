@@ -1,4 +1,4 @@
-#include <alluvium/grains/grain_checkpoint.h>
+#include <alluvium/contacts/grain_checkpoint.h>
 #include <alluvium/run/checkpoint.h>
 #include <alluvium/run/model.h>
 #include <alluvium/run/output.h>
@@ -42,7 +42,7 @@ namespace alluvium::run
       fs::remove_all(folder_new);
       fs::create_directories(folder_new);
     });
-    grains::save_grains(m.communicator, folder_new + "/grains", m.grains, m.contacts.archive());
+    contacts::save_grains(m.communicator, folder_new + "/grains", m.grains, m.contacts.archive());
     ByteWriter history;
     (m.has_fluid ? mesh::Partition::of(*m.triangulation) : mesh::Partition()).save(history);
     history.put(m.touched);
@@ -51,7 +51,7 @@ namespace alluvium::run
     if (m.has_fluid)
       {
         m.coupling.save(history, m.grains, m.touched, m.time_step, !m.grains_move);
-        mesh::FluidCheckpoint<Model::dim>(folder_new)
+        fluid::FluidCheckpoint<Model::dim>(folder_new)
           .save(m.space.dof_handler(), {&m.solver.solution(), &m.solver.old()}, m.space.nodal_dof_handler(), {});
         ByteWriter mine;
         m.solver.save_history(mine);
@@ -156,8 +156,8 @@ namespace alluvium::run
 
   void Checkpoint::load_grains(Model &m)
   {
-    grains::ContactArchive archive;
-    grains::load_grains(m.communicator, folder + "/grains", m.grains, archive);
+    contacts::ContactArchive archive;
+    contacts::load_grains(m.communicator, folder + "/grains", m.grains, archive);
     m.contacts.set_archive(archive);
     read([&] {
       m.time            = state.at("time");

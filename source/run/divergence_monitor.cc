@@ -1,4 +1,4 @@
-#include <alluvium/grains/contact_overlaps.h>
+#include <alluvium/contacts/search/contact_overlaps.h>
 #include <alluvium/run/divergence_monitor.h>
 #include <alluvium/run/model.h>
 #include <alluvium/run/places.h>
@@ -49,7 +49,7 @@ namespace alluvium::run
   /** Energy that is not worth a word: of everything, moving at a tenth of sqrt(g d) [J/m]. */
   double DivergenceMonitor::noise(const Model &m) const
   {
-    const double d    = mesh::mean_diameter(m.grains);
+    const double d    = grains::mean_diameter(m.grains);
     double       mass = 0.;
     for (const double x : m.grains.mass)
       mass += std::isinf(x) ? 0. : x;
@@ -97,7 +97,7 @@ namespace alluvium::run
     if (m.contact_report.max_penetration <= largest_penetration * smallest)
       return {};
     for (const auto &o :
-         grains::find_overlaps(m.grains, m.contacts.walls(), largest_penetration * smallest, m.domain.periodicity()))
+         contacts::find_overlaps(m.grains, m.contacts.walls(), largest_penetration * smallest, m.domain.periodicity()))
       {
         const std::size_t a = number_of(m, o.a);
         const double      radius =
@@ -120,7 +120,7 @@ namespace alluvium::run
 
   Sign DivergenceMonitor::judge_contacts(const Model &m) const
   {
-    const grains::Crush &crush = m.contact_report.crush;
+    const contacts::Crush &crush = m.contact_report.crush;
     if (!m.grains_move || !(crush.depth > largest_penetration))
       return {};
     const std::size_t a    = number_of(m, crush.a);

@@ -24,7 +24,7 @@ namespace alluvium::run
   {
     m.space.attach(*mesh);
     m.triangulation = std::move(mesh);
-    m.transfer = std::make_unique<mesh::FieldTransfer<Model::dim>>(m.space.dof_handler(), m.space.nodal_dof_handler());
+    m.transfer = std::make_unique<fluid::FieldTransfer<Model::dim>>(m.space.dof_handler(), m.space.nodal_dof_handler());
     reinit(m);
   }
 
@@ -46,7 +46,7 @@ namespace alluvium::run
   void count_cell_weights(Model &m)
   {
     if (dealii::Utilities::MPI::n_mpi_processes(m.communicator) > 1)
-      m.cell_weights.count(m.grains.x, m.grains.y, m.coupling.reach(mesh::mean_diameter(m.grains)));
+      m.cell_weights.count(m.grains.x, m.grains.y, m.coupling.reach(grains::mean_diameter(m.grains)));
   }
 
 
@@ -63,12 +63,12 @@ namespace alluvium::run
 
   bool adapt_mesh(Model &m)
   {
-    observers::MeshChange  change;
-    const auto             timer = m.timers.scope("mesh adaptation");
-    fluid::BlockVector     field, before;
-    const mesh::FluidState fluid_state{m.space, m.solver.solution(), m.coupling.void_fraction()};
-    auto                   context = m.refinement_context();
-    context.fluid                  = &fluid_state;
+    observers::MeshChange        change;
+    const auto                   timer = m.timers.scope("mesh adaptation");
+    fluid::BlockVector           field, before;
+    const refinement::FluidState fluid_state{m.space, m.solver.solution(), m.coupling.void_fraction()};
+    auto                         context = m.refinement_context();
+    context.fluid                        = &fluid_state;
     count_cell_weights(m);
     const auto report = m.adaptivity.adapt(
       *m.triangulation,

@@ -68,10 +68,10 @@ namespace alluvium::run
   }
 
 
-  mesh::RefinementContext Model::refinement_context() const
+  refinement::RefinementContext Model::refinement_context() const
   {
     const auto length  = domain.periodicity().length;
-    auto       context = mesh::make_refinement_context(
+    auto       context = refinement::make_refinement_context(
       grains, {{{domain.lower()[0], domain.lower()[1]}}, {{domain.upper()[0], domain.upper()[1]}}}, upright());
     context.periodic = {{length[0] > 0., length[1] > 0.}};
     context.time     = time;

@@ -1,6 +1,6 @@
-#include <alluvium/fluid/line_average.h>
-#include <alluvium/observers/fluid_output.h>
-#include <alluvium/observers/wall_output.h>
+#include <alluvium/observers/line_average.h>
+#include <alluvium/output/fluid_output.h>
+#include <alluvium/output/wall_output.h>
 #include <alluvium/run/bed_flow.h>
 #include <alluvium/run/model.h>
 #include <alluvium/run/output.h>
@@ -107,11 +107,11 @@ namespace alluvium::run
   {
     const bool hdf5 = format == "hdf5";
     statistics =
-      std::make_unique<observers::Statistics>(output_folder.file("statistics.csv"), model.communicator, precision);
-    summary        = std::make_unique<observers::Summary>(output_folder.file("summary.json"), model.communicator);
-    grain_pictures = std::make_unique<observers::FieldSeries>(output_folder.path(), "grains", hdf5, model.communicator);
-    fluid_pictures = std::make_unique<observers::FieldSeries>(output_folder.path(), "fluid", hdf5, model.communicator);
-    wall_pictures  = std::make_unique<observers::FieldSeries>(output_folder.path(), "walls", hdf5, model.communicator);
+      std::make_unique<output::Statistics>(output_folder.file("statistics.csv"), model.communicator, precision);
+    summary        = std::make_unique<output::Summary>(output_folder.file("summary.json"), model.communicator);
+    grain_pictures = std::make_unique<output::FieldSeries>(output_folder.path(), "grains", hdf5, model.communicator);
+    fluid_pictures = std::make_unique<output::FieldSeries>(output_folder.path(), "fluid", hdf5, model.communicator);
+    wall_pictures  = std::make_unique<output::FieldSeries>(output_folder.path(), "walls", hdf5, model.communicator);
     statistics->add_column("time_s");
     for (auto *observer : observing)
       observer->add_columns(snapshot(), *statistics);
@@ -169,11 +169,11 @@ namespace alluvium::run
       return p / (rho * g) + (u[0] * u[0] + u[1] * u[1]) / (2. * g);
     };
     if (!head_ids.empty())
-      return fluid::boundary_average<Model::dim>(model.space, model.solver.solution(), head_ids[0], psi) -
-             fluid::boundary_average<Model::dim>(model.space, model.solver.solution(), head_ids[1], psi);
+      return observers::boundary_average<Model::dim>(model.space, model.solver.solution(), head_ids[0], psi) -
+             observers::boundary_average<Model::dim>(model.space, model.solver.solution(), head_ids[1], psi);
     const auto average = [&](const double height) {
       const auto &upright = model.initial_bed.upright;
-      return fluid::line_average<Model::dim>(
+      return observers::line_average<Model::dim>(
         model.space, model.solver.solution(), upright.sign * height, psi, upright.vertical);
     };
     return average(model.initial_bed.bottom()) - average(model.initial_bed.top());
@@ -239,15 +239,15 @@ namespace alluvium::run
     if (std::any_of(walls.begin(), walls.end(), [&](const auto &wall) {
           return grains::ever_acts(wall) || model.domain.boundary_ids().count(wall.name) == 0;
         }))
-      observers::write_walls(*wall_pictures, walls, model.time, model.communicator);
+      output::write_walls(*wall_pictures, walls, model.time, model.communicator);
     if (model.has_fluid)
-      observers::write_fluid(*fluid_pictures,
-                             model.space,
-                             model.solver.solution(),
-                             model.coupling.void_fraction(),
-                             model.solver.background_gradient(),
-                             model.solver.datum(),
-                             model.time);
+      output::write_fluid(*fluid_pictures,
+                          model.space,
+                          model.solver.solution(),
+                          model.coupling.void_fraction(),
+                          model.solver.background_gradient(),
+                          model.solver.datum(),
+                          model.time);
   }
 
 

@@ -274,9 +274,9 @@ namespace alluvium::run
             if (model.speaks)
               output.write_summary_alone(ending);
             else
-              observers::Summary::amend(output.folder().file("summary.json"),
-                                        {{"ended", ending.how}, {"reason", ending.reason}},
-                                        ending.exit_code);
+              output::Summary::amend(output.folder().file("summary.json"),
+                                     {{"ended", ending.how}, {"reason", ending.reason}},
+                                     ending.exit_code);
             return;
           }
         output.write_summary_alone(ending); // the rest may not come to its end

@@ -78,10 +78,10 @@ namespace alluvium::run
     SceneNumbers s;
     const auto  &g = m.grains;
     s.n_steps      = std::ceil(std::max(0., end_time - m.time) / m.time_step - 1e-6);
-    s.diameter     = mesh::mean_diameter(g);
+    s.diameter     = grains::mean_diameter(g);
     if (g.n() > 0)
       s.radius_factor = g.fluid_radius[0] / g.radius[0];
-    s.bed = mesh::measure_bed(
+    s.bed = grains::measure_bed(
       g, m.domain.lower()[1 - m.upright().vertical], m.domain.upper()[1 - m.upright().vertical], m.upright());
     if (m.has_fluid && g.n() > 0)
       {

@@ -3,6 +3,7 @@
 #include <alluvium/run/output.h>
 #include <alluvium/run/scene_numbers.h>
 #include <alluvium/run/scene_report.h>
+#include <alluvium/utilities/digits.h>
 
 #include <deal.II/grid/tria.h>
 
@@ -16,13 +17,6 @@ namespace alluvium::run
 {
   namespace
   {
-    std::string number(const double x)
-    {
-      std::ostringstream text;
-      text << x;
-      return text.str();
-    }
-
     std::string rounded(const double x)
     {
       std::ostringstream text;
@@ -76,8 +70,8 @@ namespace alluvium::run
 
     std::string interval(const double from, const double to)
     {
-      return (std::isfinite(from) ? " from " + number(from) + " s" : "") +
-             (std::isfinite(to) ? (std::isfinite(from) ? " to " : " until ") + number(to) + " s" : "");
+      return (std::isfinite(from) ? " from " + in_digits(from) + " s" : "") +
+             (std::isfinite(to) ? (std::isfinite(from) ? " to " : " until ") + in_digits(to) + " s" : "");
     }
 
     std::string in_words(const grains::WallMotion &motion, const bool rigid)
@@ -91,9 +85,9 @@ namespace alluvium::run
             {
               const auto &v = phase.velocity;
               if (v[0] != 0. || v[1] != 0.)
-                text += ", moves at (" + number(v[0]) + ", " + number(v[1]) + ") m/s";
+                text += ", moves at (" + in_digits(v[0]) + ", " + in_digits(v[1]) + ") m/s";
               if (v[2] != 0.)
-                text += ", turns at " + number(v[2]) + " rad/s";
+                text += ", turns at " + in_digits(v[2]) + " rad/s";
             }
           text += interval(phase.from, phase.to);
         }
@@ -125,8 +119,8 @@ namespace alluvium::run
           const bool boundary = m.domain.boundary_ids().count(wall.name) > 0;
           if ((boundary && !moves) || ++n > most)
             continue;
-          std::string text = wall.name + ": (" + number(wall.a[0]) + ", " + number(wall.a[1]) + ") -> (" +
-                             number(wall.b[0]) + ", " + number(wall.b[1]) + ") m";
+          std::string text = wall.name + ": (" + in_digits(wall.a[0]) + ", " + in_digits(wall.a[1]) + ") -> (" +
+                             in_digits(wall.b[0]) + ", " + in_digits(wall.b[1]) + ") m";
           if (wall.motion)
             text += in_words(*wall.motion, wall.rigid) + (is_belt(wall) ? ", as a belt: it stays where it is" : "");
           lines.push_back(text + (boundary ? "" : ", for grains only"));
@@ -151,18 +145,18 @@ namespace alluvium::run
         line(i == 0 ? what : "", texts[i]);
     };
     line("grains",
-         std::to_string(m.grains.n()) + " discs, mean diameter " + number(s.diameter) + " m, fluid radius " +
-           number(s.radius_factor) + " of the contact radius");
+         std::to_string(m.grains.n()) + " discs, mean diameter " + in_digits(s.diameter) + " m, fluid radius " +
+           in_digits(s.radius_factor) + " of the contact radius");
     if (s.bed.solid > 0.)
       {
-        const double inside = grains::inner_packing_fraction(mesh::turned(m.grains, m.upright()));
+        const double inside = grains::inner_packing_fraction(grains::turned(m.grains, m.upright()));
         line("bed",
              (m.initial_bed.empty()
                 ? std::string()
-                : number(m.initial_bed.bottom()) + " m to " + number(m.initial_bed.top()) + " m, ") +
-               "packing fraction " + number(s.bed.fraction()) +
-               (s.radius_factor < 1. ? " (" + number(s.bed.fluid_fraction()) + " for the fluid)" : "") +
-               (inside > 0. ? ", " + number(inside) + " inside" : ""));
+                : in_digits(m.initial_bed.bottom()) + " m to " + in_digits(m.initial_bed.top()) + " m, ") +
+               "packing fraction " + in_digits(s.bed.fraction()) +
+               (s.radius_factor < 1. ? " (" + in_digits(s.bed.fluid_fraction()) + " for the fluid)" : "") +
+               (inside > 0. ? ", " + in_digits(inside) + " inside" : ""));
       }
     if (m.has_fluid)
       {
@@ -172,16 +166,16 @@ namespace alluvium::run
                (m.solver.discretisation.convection ? "" : "; without convection, as asked"));
         line("coupling",
              std::to_string(m.coupling.report().n_pieces) + " pieces of grains, void fraction " +
-               number(m.coupling.report().eps_min) + " to " + number(m.coupling.report().eps_max) + ", rho d^2/eta " +
-               number(s.viscous_time) + " s");
+               in_digits(m.coupling.report().eps_min) + " to " + in_digits(m.coupling.report().eps_max) +
+               ", rho d^2/eta " + in_digits(s.viscous_time) + " s");
         const coupling::DragRange range = m.coupling.drag_law().range();
         line("drag law",
-             m.coupling.drag_law_name() + " (void fraction " + number(range.eps_min) + " to " + number(range.eps_max) +
-               ", Reynolds number to " + number(range.re_max) + ")" +
+             m.coupling.drag_law_name() + " (void fraction " + in_digits(range.eps_min) + " to " +
+               in_digits(range.eps_max) + ", Reynolds number to " + in_digits(range.re_max) + ")" +
                (!s.has_drag ? "; no drag: the fluid reaches grains through its pressure only"
                 : s.eps < 1.
-                  ? "; bed of void fraction " + number(s.eps) + ": permeability " + number(s.permeability) +
-                      " m^2, fluidised at a superficial velocity of " + number(s.fluidisation_velocity) + " m/s" +
+                  ? "; bed of void fraction " + in_digits(s.eps) + ": permeability " + in_digits(s.permeability) +
+                      " m^2, fluidised at a superficial velocity of " + in_digits(s.fluidisation_velocity) + " m/s" +
                       (range.contains(s.eps, range.re_min) ? "" : "; it lies outside the law's range")
                   : ""));
         if (s.critical_gradient > 0.)
@@ -204,7 +198,7 @@ namespace alluvium::run
                     : "") +
                  "; Shields number 1 is a shear stress of " + rounded(s.shields_stress) + " Pa");
         line("time step",
-             number(m.time_step) + " s" +
+             in_digits(m.time_step) + " s" +
                (s.relaxation_time > 0. ? ": " + rounded(m.time_step / s.relaxation_time) + " tau_p (" +
                                            rounded(s.relaxation_time) + " s" + (s.eps < 1. ? ", in the bed)" : ")")
                                        : "") +

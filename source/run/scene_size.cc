@@ -29,7 +29,7 @@ namespace alluvium::run
   void check_scene_size(const Model &m)
   {
     const auto   size  = m.domain.upper() - m.domain.lower();
-    const double width = size[0], height = size[1], d = mesh::mean_diameter(m.grains);
+    const double width = size[0], height = size[1], d = grains::mean_diameter(m.grains);
     if (m.has_fluid && m.domain.is_rectangle() && m.coarse_size > 0.)
       {
         const double n_cells = std::ceil(width / m.coarse_size) * std::ceil(height / m.coarse_size);

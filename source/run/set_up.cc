@@ -17,8 +17,6 @@ namespace alluvium::run
 
   namespace
   {
-    constexpr int dim = Model::dim;
-
     /** Criteria that look at the fluid see more on a finer mesh: they are asked until the mesh stays. */
     void find_initial_mesh(Model &m)
     {
@@ -41,7 +39,7 @@ namespace alluvium::run
               {"g", m.gravity_size()},
               {"H", m.domain.upper()[up] - m.domain.lower()[up]},
               {"L", m.initial_bed.empty() ? 0. : m.initial_bed.top() - m.initial_bed.bottom()},
-              {"d", mesh::mean_diameter(m.grains)},
+              {"d", grains::mean_diameter(m.grains)},
               {"pi", numbers::PI}};
     }
 
@@ -53,9 +51,9 @@ namespace alluvium::run
     void look_at_boundary_conditions(Model &m)
     {
       m.boundary_conditions.initialize(m.domain.boundary_ids(), formula_constants(m));
-      Tensor<1, dim> gradient;
-      Point<dim>     highest;
-      for (unsigned int d = 0; d < dim; ++d)
+      Tensor<1, Model::dim> gradient;
+      Point<Model::dim>     highest;
+      for (unsigned int d = 0; d < Model::dim; ++d)
         {
           gradient[d] = m.solver.properties.density * m.gravity[d];
           highest[d]  = m.gravity[d] > 0. ? m.domain.lower()[d] : m.domain.upper()[d];
@@ -174,7 +172,7 @@ namespace alluvium::run
       {
         m.clock.dt    = m.time_step;
         m.grains      = m.grain_setup.make(m.communicator, m.domain, walls, m.gravity, directory);
-        m.initial_bed = mesh::find_bed_faces(m.grains, lower[across], upper[across], m.upright());
+        m.initial_bed = grains::find_bed_faces(m.grains, lower[across], upper[across], m.upright());
         m.coarse_size = m.domain.coarse_cell_size() > 0. || !m.has_fluid
                           ? m.domain.coarse_cell_size()
                           : m.adaptivity.coarse_size(m.refinement_context());

@@ -16,8 +16,6 @@ namespace alluvium::run
 
   namespace
   {
-    constexpr int dim = Model::dim;
-
     struct FluidSums
     {
       double kinetic = 0., solid = 0., velocity_square = 0., courant = 0.;
@@ -77,7 +75,7 @@ namespace alluvium::run
 
   void StepMeter::find_faces(const Model &m)
   {
-    using Kind = fluid::BoundaryConditions<dim>::Kind;
+    using Kind = fluid::BoundaryConditions<Model::dim>::Kind;
     faces.clear();
     faces_known                   = true;
     const auto        &periodic   = m.space.periodic_box().length;
@@ -96,10 +94,10 @@ namespace alluvium::run
             if (!cell->face(f)->at_boundary())
               continue;
             const auto id = cell->face(f)->boundary_id();
-            if (periodic[id / 2 % dim] > 0.)
+            if (periodic[id / 2 % Model::dim] > 0.)
               continue;
-            const Point<dim> a = cell->face(f)->vertex(0), b = cell->face(f)->vertex(1);
-            bool             pressure = false, velocity = false;
+            const Point<Model::dim> a = cell->face(f)->vertex(0), b = cell->face(f)->vertex(1);
+            bool                    pressure = false, velocity = false;
             for (const auto &part : m.space.divide_face(id, a, b))
               {
                 pressure = pressure || conditions.at(part.id).kind == Kind::pressure;
@@ -192,7 +190,7 @@ namespace alluvium::run
     const auto  &g           = m.grains;
     const double rho         = m.has_fluid ? m.solver.properties.density : 0.;
     const auto   periodicity = m.domain.periodicity();
-    const auto   excess      = m.has_fluid ? m.solver.unsupported_weight() : Tensor<1, dim>();
+    const auto   excess      = m.has_fluid ? m.solver.unsupported_weight() : Tensor<1, Model::dim>();
     double       work = 0., prescribed = 0.;
     for (std::size_t i = 0; i < g.n(); ++i)
       {

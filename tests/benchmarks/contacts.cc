@@ -12,9 +12,9 @@
 // sweep.
 // --search tells what a contact search costs, with known impulses, and how much of it is looking for pairs.
 // With mpirun, ranks share the work; each tells what it computed and sent. Alone, the first bed also tells the memory.
-#include <alluvium/grains/contact_neighbours.h>
-#include <alluvium/grains/contact_stepper.h>
-#include <alluvium/grains/deposit.h>
+#include <alluvium/contacts/contact_stepper.h>
+#include <alluvium/contacts/search/contact_neighbours.h>
+#include <alluvium/deposits/deposit.h>
 #include <alluvium/utilities/mpi_environment.h>
 #include <alluvium/utilities/plugin.h>
 

@@ -12,10 +12,10 @@
 // A bed is a table of grains as the deposit 'file' reads it, in a box from (0, 0) with walls left, right and below; the
 // comment `# width = W` in it says how wide. Every call prints one JSON object. Held beds first take 0.01 s that does
 // not count.
-#include <alluvium/grains/contact_solver.h>
-#include <alluvium/grains/contact_stepper.h>
-#include <alluvium/grains/deposit.h>
-#include <alluvium/grains/deposit_table.h>
+#include <alluvium/contacts/contact_stepper.h>
+#include <alluvium/contacts/solvers/contact_solver.h>
+#include <alluvium/deposits/deposit.h>
+#include <alluvium/deposits/deposit_table.h>
 #include <alluvium/grains/packing.h>
 #include <alluvium/utilities/plugin.h>
 

@@ -2,7 +2,7 @@
 // have it.
 #include "bed.h"
 
-#include <alluvium/grains/contact_stepper.h>
+#include <alluvium/contacts/contact_stepper.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <gtest/gtest.h>

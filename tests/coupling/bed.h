@@ -2,7 +2,7 @@
 
 // Beds of discs for the tests of the coupling: cut out of a settled bed, so that they fill a rectangle from end to end.
 #include <alluvium/coupling/coupling.h>
-#include <alluvium/grains/deposit.h>
+#include <alluvium/deposits/deposit.h>
 
 #include <deal.II/base/function_lib.h>
 #include <deal.II/base/parameter_handler.h>
@@ -26,9 +26,9 @@ namespace bed
   };
 
   /** A bed of @p n discs 0.2 to 0.24 mm, settled on a floor between walls, @p width apart [m]. */
-  inline std::vector<grains::Seed> settled_seeds(const unsigned int seed, const unsigned int n, const double width)
+  inline std::vector<deposits::Seed> settled_seeds(const unsigned int seed, const unsigned int n, const double width)
   {
-    using Registry           = alluvium::Registry<grains::Deposit>;
+    using Registry           = alluvium::Registry<deposits::Deposit>;
     auto             deposit = Registry::entries().at("settled bed").create();
     ParameterHandler prm;
     deposit->add_parameters(prm);

@@ -79,11 +79,11 @@ namespace bed
 
     double                     width, onset = 0.; // [m], and the reduced weight over the width [Pa]
     Channel                    channel;
-    grains::ContactStepper     stepper;
+    contacts::ContactStepper   stepper;
     alluvium::Timers           timers;
     coupling::ContactIteration iteration;
     grains::GrainArrays        grains;
     std::vector<std::uint8_t>  touched;
-    grains::ContactReport      report;
+    contacts::ContactReport    report;
   };
 } // namespace bed

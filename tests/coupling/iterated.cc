@@ -2,7 +2,7 @@
 // notice the time step.
 #include "free_bed.h"
 
-#include <alluvium/coupling/anderson_mixing.h>
+#include <alluvium/utilities/anderson_mixing.h>
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ namespace
         y[i] = b[i] + a[i][0] * x[0] + a[i][1] * x[1] + a[i][2] * x[2];
       return y;
     };
-    coupling::AndersonMixing         mixing(4);
+    AndersonMixing                   mixing(4);
     std::vector<std::vector<double>> answers;
     std::vector<double>              x(3, 0.), residual(3);
     for (unsigned int k = 0; k < 5; ++k)

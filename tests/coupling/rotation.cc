@@ -2,8 +2,8 @@
 // torques, and no growth where it does.
 #include "bed.h"
 
+#include <alluvium/contacts/contact_stepper.h>
 #include <alluvium/coupling/rotation.h>
-#include <alluvium/grains/contact_stepper.h>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <alluvium/grains/grain_checkpoint.h>
+#include <alluvium/contacts/grain_checkpoint.h>
 #include <alluvium/grains/grain_store.h>
 #include <alluvium/utilities/user_error.h>
 

@@ -1,4 +1,4 @@
-#include "test_mesh.h"
+#include "fixtures/test_mesh.h"
 
 #include <deal.II/distributed/shared_tria.h>
 #include <deal.II/grid/tria_accessor.h>
@@ -17,7 +17,7 @@ namespace
   using namespace mesh_test;
   using mesh::Domain;
 
-  const std::string data = std::string(ALLUVIUM_TEST_DATA) + "/data";
+  const std::string data = std::string(ALLUVIUM_TEST_DATA);
 
   std::string content(const std::string &name)
   {
@@ -228,7 +228,7 @@ namespace
     ParameterHandler prm;
     Domain<2>        domain;
     set_parameters(domain, prm, {{"Domain/Mesh file", "crack_22.msh"}});
-    domain.initialize(MPI_COMM_WORLD, ALLUVIUM_TEST_DATA "/data");
+    domain.initialize(MPI_COMM_WORLD, ALLUVIUM_TEST_DATA);
     unsigned int n_faces = 0;
     for (const auto &wall : domain.walls())
       if (wall.name == "pile")
@@ -250,7 +250,7 @@ namespace
     ParameterHandler prm;
     Domain<2>        domain;
     set_parameters(domain, prm, {{"Domain/Mesh file", "quadrilaterals_22.msh"}, {"Domain/Open to grains", "step"}});
-    domain.initialize(MPI_COMM_WORLD, ALLUVIUM_TEST_DATA "/data");
+    domain.initialize(MPI_COMM_WORLD, ALLUVIUM_TEST_DATA);
     EXPECT_TRUE(domain.contains(0.25, 0.75));
     EXPECT_TRUE(domain.contains(0.75, 0.25));
     EXPECT_TRUE(domain.contains(0.75, 0.5)); // on a side

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <alluvium/contacts/contact_stepper.h>
 #include <alluvium/coupling/coupling.h>
-#include <alluvium/grains/contact_stepper.h>
 
 namespace alluvium::coupling
 {
@@ -17,7 +17,7 @@ namespace alluvium::coupling
   {
   public:
     /** @p timers get the phases "contacts" and, for what is repeated, "fluid". */
-    ContactIteration(Coupling &coupling, grains::ContactStepper &contacts, Timers &timers)
+    ContactIteration(Coupling &coupling, contacts::ContactStepper &contacts, Timers &timers)
       : coupling(coupling)
       , contacts(contacts)
       , timers(timers)
@@ -27,7 +27,7 @@ namespace alluvium::coupling
      * After Coupling::step() with the same @p grains and @p dt [s]: move them under @p loads, which become those of the
      * last solve. @p gravity as for ContactStepper::advance(). Collective.
      */
-    grains::ContactReport
+    contacts::ContactReport
     advance(grains::GrainArrays &grains, grains::GrainLoads &loads, double dt, const std::array<double, 2> &gravity);
 
     /** How often the last step was repeated. */
@@ -39,10 +39,10 @@ namespace alluvium::coupling
     /** What contacts make of the grains, and the forces that the fluid has not seen in it. */
     struct Answer
     {
-      grains::GrainArrays   grains;
-      grains::ContactReport report;
-      GrainMotion           motion;
-      std::vector<double>   unseen; // Coupling::unseen_force()
+      grains::GrainArrays     grains;
+      contacts::ContactReport report;
+      GrainMotion             motion;
+      std::vector<double>     unseen; // Coupling::unseen_force()
     };
     Answer move(const grains::GrainArrays   &grains,
                 const grains::GrainLoads    &loads,
@@ -51,10 +51,10 @@ namespace alluvium::coupling
                 double                       haste);
     bool   agrees(const Answer &answer, double tolerance) const;
 
-    Coupling               &coupling;
-    grains::ContactStepper &contacts;
-    Timers                 &timers;
-    unsigned int            n     = 0;
-    bool                    agree = true;
+    Coupling                 &coupling;
+    contacts::ContactStepper &contacts;
+    Timers                   &timers;
+    unsigned int              n     = 0;
+    bool                      agree = true;
   };
 } // namespace alluvium::coupling

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <alluvium/contacts/contact_stepper.h>
 #include <alluvium/coupling/coupling.h>
-#include <alluvium/grains/contact_stepper.h>
+#include <alluvium/grains/bed_faces.h>
 #include <alluvium/grains/leavers.h>
-#include <alluvium/mesh/bed_faces.h>
 #include <alluvium/observers/mesh_change.h>
-#include <alluvium/observers/statistics.h>
-#include <alluvium/observers/summary.h>
+#include <alluvium/output/statistics.h>
+#include <alluvium/output/summary.h>
 #include <alluvium/utilities/plugin.h>
 
 #include <nlohmann/json_fwd.hpp>
@@ -37,20 +37,20 @@ namespace alluvium::observers
   /** What an observer sees after a step. The same on all ranks, apart from the fluid's distributed fields. */
   struct Snapshot
   {
-    double                        time, dt; // [s]
-    unsigned int                  step;
-    const grains::GrainArrays    &grains;
-    const mesh::BedFaces         &initial_bed;
-    double                        left, right; // of the domain, across gravity's axis [m]
-    double                        bottom, top; // of the same in y [m]
-    std::array<double, 2>         gravity;     // [m/s^2]
-    const grains::ContactReport  *contacts;    // null where grains do not move, and at t = 0
-    const FluidView              *fluid;       // null in dry scenes
-    const grains::ContactStepper *stepper;     // null where grains do not move
-    std::string                   folder;      // where output goes
-    MPI_Comm                      communicator;
-    const MeshChange             *mesh_change; // the latest, if watches_mesh_changes(); null before the first
-    const grains::Leavers        &leavers;
+    double                          time, dt; // [s]
+    unsigned int                    step;
+    const grains::GrainArrays      &grains;
+    const grains::BedFaces         &initial_bed;
+    double                          left, right; // of the domain, across gravity's axis [m]
+    double                          bottom, top; // of the same in y [m]
+    std::array<double, 2>           gravity;     // [m/s^2]
+    const contacts::ContactReport  *contacts;    // null where grains do not move, and at t = 0
+    const FluidView                *fluid;       // null in dry scenes
+    const contacts::ContactStepper *stepper;     // null where grains do not move
+    std::string                     folder;      // where output goes
+    MPI_Comm                        communicator;
+    const MeshChange               *mesh_change; // the latest, if watches_mesh_changes(); null before the first
+    const grains::Leavers          &leavers;
 
     const std::vector<grains::WallSegment> &walls; // of the grains
   };
@@ -71,7 +71,7 @@ namespace alluvium::observers
      */
     virtual bool applies(const Snapshot &) const { return true; }
 
-    virtual void add_columns(const Snapshot &, Statistics &) {}
+    virtual void add_columns(const Snapshot &, output::Statistics &) {}
 
     /** Does it look at mesh changes? Measuring them costs a little, and is done only for those who do. */
     virtual bool watches_mesh_changes() const { return false; }
@@ -80,10 +80,10 @@ namespace alluvium::observers
     virtual void observe(const Snapshot &) {}
 
     /** Fill this observer's columns of a row; after observe(), collective. */
-    virtual void write(const Snapshot &, Statistics &) {}
+    virtual void write(const Snapshot &, output::Statistics &) {}
 
     /** What the user came for. */
-    virtual void conclude(Summary &) const {}
+    virtual void conclude(output::Summary &) const {}
 
     /** What a restarted run must remember. */
     virtual void save(nlohmann::ordered_json &) const {}

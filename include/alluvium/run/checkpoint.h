@@ -1,6 +1,6 @@
 #pragma once
 
-#include <alluvium/mesh/fluid_checkpoint.h>
+#include <alluvium/fluid/fluid_checkpoint.h>
 #include <alluvium/mesh/partition.h>
 #include <alluvium/utilities/checked_file.h>
 
@@ -75,12 +75,12 @@ namespace alluvium::run
     template <typename Action>
     void read(const Action &action) const;
 
-    std::string              folder;
-    nlohmann::ordered_json   state;
-    std::string              history_bytes;
-    ByteReader               history;
-    mesh::Partition          cells;
-    bool                     as_many_ranks = false;
-    mesh::FluidCheckpoint<2> fluid;
+    std::string               folder;
+    nlohmann::ordered_json    state;
+    std::string               history_bytes;
+    ByteReader                history;
+    mesh::Partition           cells;
+    bool                      as_many_ranks = false;
+    fluid::FluidCheckpoint<2> fluid;
   };
 } // namespace alluvium::run

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <alluvium/contacts/search/contact_archive.h>
 #include <alluvium/fluid/fluid_space.h>
-#include <alluvium/grains/contact_archive.h>
 #include <alluvium/grains/grain_arrays.h>
 #include <alluvium/grains/leavers.h>
 
@@ -44,7 +44,7 @@ namespace alluvium::run
     fluid::BlockVector            field, before;
     grains::GrainArrays           grains;
     std::vector<std::uint8_t>     touched;
-    grains::ContactArchive        contacts;
+    contacts::ContactArchive      contacts;
     grains::Leavers               leavers;
     std::map<std::string, double> counts;
     nlohmann::ordered_json        of_output;

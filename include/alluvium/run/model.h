@@ -1,18 +1,18 @@
 #pragma once
 
+#include <alluvium/contacts/contact_stepper.h>
 #include <alluvium/coupling/contact_iteration.h>
 #include <alluvium/coupling/coupling.h>
 #include <alluvium/fluid/boundary_conditions.h>
+#include <alluvium/fluid/field_transfer.h>
 #include <alluvium/fluid/vans_solver.h>
-#include <alluvium/grains/contact_stepper.h>
+#include <alluvium/grains/bed_faces.h>
 #include <alluvium/grains/grain_store.h>
 #include <alluvium/grains/leavers.h>
-#include <alluvium/mesh/adaptivity.h>
-#include <alluvium/mesh/bed_faces.h>
 #include <alluvium/mesh/domain.h>
-#include <alluvium/mesh/field_transfer.h>
 #include <alluvium/observers/mesh_change.h>
-#include <alluvium/scene/grain_setup.h>
+#include <alluvium/refinement/adaptivity.h>
+#include <alluvium/run/grain_setup.h>
 #include <alluvium/utilities/timers.h>
 #include <alluvium/utilities/warnings.h>
 
@@ -48,7 +48,7 @@ namespace alluvium::run
     void add_parameters(dealii::ParameterHandler &prm);
 
     /** What refinement criteria see of the grains, now. */
-    mesh::RefinementContext refinement_context() const;
+    refinement::RefinementContext refinement_context() const;
 
     /** Magnitude of the acceleration of gravity [m/s^2]. */
     double gravity_size() const;
@@ -66,28 +66,28 @@ namespace alluvium::run
 
     // the rooms
     mesh::Domain<dim>                                domain;
-    mesh::Adaptivity<dim>                            adaptivity;
+    refinement::Adaptivity<dim>                      adaptivity;
     mesh::CellWeights                                cell_weights; // before the mesh, which asks it
     std::unique_ptr<dealii::Triangulation<dim, dim>> triangulation;
     fluid::BoundaryConditions<dim>                   boundary_conditions;
     fluid::FluidSpace<dim>                           space;
     fluid::VansSolver<dim>                           solver;
     coupling::Coupling                               coupling;
-    scene::GrainSetup                                grain_setup;
+    run::GrainSetup                                  grain_setup;
     grains::GrainStore                               store;
-    grains::ContactStepper                           contacts;
+    contacts::ContactStepper                         contacts;
     Timers                                           timers;
     Warnings                                         warnings;
     coupling::ContactIteration                       contact_iteration;
-    std::unique_ptr<mesh::FieldTransfer<dim>>        transfer;
+    std::unique_ptr<fluid::FieldTransfer<dim>>       transfer;
 
     // the state
     grains::GrainArrays           grains;
     grains::GrainLoads            loads;
     std::vector<std::uint8_t>     touched; // by others in the last step
-    grains::ContactReport         contact_report;
+    contacts::ContactReport       contact_report;
     grains::Leavers               leavers;
-    mesh::BedFaces                initial_bed;
+    grains::BedFaces              initial_bed;
     double                        time    = 0.; // [s]
     unsigned int                  n_steps = 0;
     Clock                         clock;

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <alluvium/observers/field_series.h>
 #include <alluvium/observers/observer.h>
-#include <alluvium/observers/output_folder.h>
+#include <alluvium/output/field_series.h>
+#include <alluvium/output/output_folder.h>
 #include <alluvium/utilities/timers.h>
 
 #include <nlohmann/json_fwd.hpp>
@@ -41,7 +41,7 @@ namespace alluvium::run
     /** Which observers work, and which were left out: one line. */
     std::string observers() const;
 
-    const observers::OutputFolder &folder() const { return output_folder; }
+    const output::OutputFolder &folder() const { return output_folder; }
 
     /** As OutputFolder::check(). Collective. */
     std::string check_folder(bool is_restart, bool may_hold_a_run);
@@ -83,7 +83,7 @@ namespace alluvium::run
     void                warn_of_drag_range();
 
     Model                            &model;
-    observers::OutputFolder           output_folder;
+    output::OutputFolder              output_folder;
     PluginChoice<observers::Observer> choice;
     double                            picture_interval = 0.05, row_interval = 0.01; // [s]
     std::string                       format    = "vtu", head_between;
@@ -92,9 +92,9 @@ namespace alluvium::run
     std::vector<observers::Observer *>      observing;
     std::unique_ptr<observers::FluidView>   fluid_view;
     std::vector<dealii::types::boundary_id> head_ids; // of two boundaries, if the head is between them
-    std::unique_ptr<observers::Statistics>  statistics;
-    std::unique_ptr<observers::Summary>     summary;
-    std::unique_ptr<observers::FieldSeries> fluid_pictures, grain_pictures, wall_pictures;
+    std::unique_ptr<output::Statistics>     statistics;
+    std::unique_ptr<output::Summary>        summary;
+    std::unique_ptr<output::FieldSeries>    fluid_pictures, grain_pictures, wall_pictures;
 
     // impulses of the fluid on all grains, and on those outside the range of the drag law [N s/m]
     double drag_impulse = 0., drag_impulse_outside = 0.;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <alluvium/mesh/bed_packing.h>
+#include <alluvium/grains/bed_packing.h>
 
 #include <string>
 
@@ -11,8 +11,8 @@ namespace alluvium::run
   /** What a user wants to know of a scene before it runs. Zero where it has no meaning. */
   struct SceneNumbers
   {
-    double           diameter = 0., radius_factor = 1.; // mean contact diameter [m]; fluid over contact radius
-    mesh::BedPacking bed;
+    double             diameter = 0., radius_factor = 1.; // mean contact diameter [m]; fluid over contact radius
+    grains::BedPacking bed;
 
     double eps                   = 1.; // of the bed as the fluid sees it
     double permeability          = 0.; // of the bed with its void fraction as it is in the run [m^2]

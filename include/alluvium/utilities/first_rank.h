@@ -9,12 +9,17 @@
 
 namespace alluvium
 {
+  inline bool is_first_rank(const MPI_Comm communicator)
+  {
+    return dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+  }
+
   /** Call @p function on rank 0, for what is done with files; what it throws becomes a UserError on all. Collective. */
   template <typename Function>
   void on_first_rank(const MPI_Comm communicator, const Function &function)
   {
     std::string complaint;
-    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+    if (is_first_rank(communicator))
       try
         {
           function();

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <alluvium/contacts/solvers/contact_problem.h>
+
+#include <algorithm>
+#include <string>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace alluvium::contacts
+{
+  /**
+   * When a contact solution is good enough. Both numbers are about the natural map: how far an impulse would still move
+   * if its contact alone were solved once more, over the root mean square of the impulses (at least the problem's
+   * impulse scale). Where that takes more than `patience` sweeps (grains slide, and friction is no minimisation), less
+   * and less is asked: with the fourth power of the sweeps, up to the factor `loose`.
+   *
+   * A light disc's contact can hardly move the impulse that a heavy one wants of it. Where masses differ by thousands
+   * the velocity with which any contact is violated counts too: the heaviest mass times it is an impulse that is
+   * missing, and must be small against the largest impulse, or that of the heaviest disc's own weight.
+   */
+  struct ContactTolerance
+  {
+    double       residual   = 1e-6; // root mean square over the contacts
+    double       violation  = 1e-4; // maximum over the contacts
+    double       loose      = 100.;
+    unsigned int patience   = 100;
+    bool         at_rest    = false; // nothing is thought to move, as in a cold start
+    unsigned int max_sweeps = 2000;  // then the solver gives up, and the caller takes a smaller sub-step
+    double       missing    = 1e-2;  // impulse of the heaviest disc; in no case less is asked
+
+    double allowance(const unsigned int sweeps) const
+    {
+      const double over = static_cast<double>(sweeps) / patience;
+      return std::clamp(over * over * over * over, 1., std::max(1., loose));
+    }
+  };
+
+  /** How a solve ended. */
+  struct ContactSolution
+  {
+    bool         converged = false;
+    unsigned int sweeps    = 0; // sweeps over all contacts
+    double       residual = 0., violation = 0., missing = 0.;
+
+    /** Whether the numbers meet @p tolerance after so many sweeps. */
+    bool meets(const ContactTolerance &tolerance) const
+    {
+      const double allowance = tolerance.allowance(sweeps);
+      return residual <= allowance * tolerance.residual && violation <= allowance * tolerance.violation &&
+             missing <= tolerance.missing;
+    }
+  };
+
+  /**
+   * Interface of the plug-ins that solve a ContactProblem: from free velocities and warm impulses to final ones. They
+   * must be deterministic. Over several ranks they are collective, speak through the problem's communicator only, and
+   * must find the same bits on any number of them, or refuse.
+   */
+  class ContactSolver
+  {
+  public:
+    virtual ~ContactSolver() = default;
+    virtual void            add_parameters(dealii::ParameterHandler &) {}
+    virtual ContactSolution solve(ContactProblem &problem, const ContactTolerance &tolerance) const = 0;
+  };
+
+  /** Throw a UserError if @p problem is spread over several ranks, which the solver named @p solver cannot handle. */
+  void refuse_ranks(const ContactProblem &problem, const std::string &solver);
+
+  class ContactMeasure;
+  struct SweepSums;
+
+  /**
+   * The natural-map residual of the problem of @p measure as it stands: fills `residual`, `violation` and
+   * `missing` of @p solution. Collective.
+   */
+  void measure_residual(const ContactMeasure &measure, ContactSolution &solution);
+
+  /**
+   * Whether the problem is solved to @p tolerance, after a sweep that changed impulses by @p sums. The changes of a
+   * sweep only hint at the residual after it, so it is measured before they are believed, but only if they are small
+   * enough; a sweep of this solver moves an impulse by about @p stride times its distance from its law. Fills
+   * @p solution, but for its sweeps, which must be right before. Collective.
+   */
+  bool is_solved(const ContactMeasure   &measure,
+                 const SweepSums        &sums,
+                 const ContactTolerance &tolerance,
+                 ContactSolution        &solution,
+                 double                  stride = 1.);
+} // namespace alluvium::contacts

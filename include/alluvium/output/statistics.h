@@ -1,0 +1,51 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace alluvium::output
+{
+  /**
+   * The numbers of a run over time: a .csv file with a header line and one row for each write_row(), flushed at once so
+   * that it can be plotted while the run goes on. All ranks may call everything; rank 0 writes.
+   *
+   * Names of columns end in their SI unit: "time_s", "differential_head_m". The first one is the time.
+   */
+  class Statistics
+  {
+  public:
+    /** @p precision is the number of significant digits. */
+    Statistics(const std::string &file_name, MPI_Comm communicator, unsigned int precision = 10);
+
+    /** Add a column; an error after the first row, or if there is one of this name. */
+    void add_column(const std::string &name);
+
+    void set(const std::string &column, double value);
+
+    /** Write what was set since the last row; columns that were not are left empty. Collective. */
+    void write_row();
+
+    /**
+     * Continue the file of an interrupted run: keep its rows up to @p time, drop the later ones (and a torn last line).
+     * The header must be the same. To be called after all columns were added and before the first row.
+     */
+    void resume(double time);
+
+  private:
+    void        open(bool append);
+    std::string header() const;
+    std::string formatted(double value) const;
+
+    const std::string        file_name;
+    const MPI_Comm           communicator;
+    const unsigned int       precision;
+    const bool               is_writer;
+    bool                     is_started = false;
+    std::vector<std::string> columns;
+    std::vector<double>      row; // NaN: not set
+    std::ofstream            file;
+  };
+} // namespace alluvium::output

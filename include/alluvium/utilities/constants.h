@@ -1,0 +1,6 @@
+#pragma once
+
+namespace alluvium
+{
+  constexpr double pi = 3.14159265358979323846;
+} // namespace alluvium

@@ -1,0 +1,68 @@
+#include <alluvium/contacts/contact_scales.h>
+#include <alluvium/utilities/divergence.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace alluvium::contacts
+{
+  ContactScales make_scales(const grains::GrainArrays &grains, const std::array<double, 2> gravity)
+  {
+    ContactScales scales;
+    const auto [r_min, r_max] = std::minmax_element(grains.radius.begin(), grains.radius.end());
+    scales.d_min              = 2. * *r_min;
+    scales.d_max              = 2. * *r_max;
+    scales.g                  = std::hypot(gravity[0], gravity[1]);
+    if (scales.g > 0.)
+      scales.down = {{gravity[0] / scales.g, gravity[1] / scales.g}};
+    double sum = 0.;
+    for (const double m : grains.mass)
+      {
+        sum += 1. / m;
+        if (std::isinf(m))
+          continue;
+        scales.mass += m;
+        scales.heaviest = std::max(scales.heaviest, m);
+        scales.lightest = scales.lightest > 0. ? std::min(scales.lightest, m) : m;
+      }
+    scales.mean_mass = sum > 0. ? grains.n() / sum : 1.;
+    return scales;
+  }
+
+  unsigned int count_substeps(const grains::GrainArrays &grains,
+                              const grains::GrainLoads  &loads,
+                              const double               dt,
+                              const double               largest_move)
+  {
+    double speed = 0.;
+    for (std::size_t k = 0; k < grains.n(); ++k)
+      {
+        const double m  = grains.mass[k] + loads.mass_added_to(k);
+        double       vx = grains.vx[k], vy = grains.vy[k];
+        speed = std::max(speed, vx * vx + vy * vy);
+        if (!std::isinf(m))
+          {
+            vx               = m * vx + dt * (loads.fx[k] + grains.fcx[k]);
+            vy               = m * vy + dt * (loads.fy[k] + grains.fcy[k]);
+            const double m_e = m + dt * loads.drag[k];
+            // Most grains are not the fastest, which takes no division to see.
+            if (!(vx * vx + vy * vy < 0.999 * speed * m_e * m_e))
+              {
+                vx /= m_e;
+                vy /= m_e;
+                speed = std::max(speed, vx * vx + vy * vy);
+              }
+          }
+        if (!std::isfinite(vx * vx + vy * vy + grains.x[k] + grains.y[k]))
+          throw Divergence("The position, the velocity or the load of grain " + std::to_string(grains.id[k]) +
+                           " is not a finite number.");
+      }
+    const double n_substeps = std::ceil(dt * std::sqrt(speed) / largest_move * (1. - 1e-10));
+    if (n_substeps > 1e6)
+      throw Divergence("A grain moves at " + std::to_string(std::sqrt(speed)) +
+                       " m/s: one step would need more than a million contact sub-steps.");
+    return std::max(1., n_substeps);
+  }
+} // namespace alluvium::contacts

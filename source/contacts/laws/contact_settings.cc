@@ -1,0 +1,117 @@
+#include <alluvium/contacts/laws/contact_settings.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/patterns.h>
+
+namespace alluvium::contacts
+{
+  void ContactSettings::add_parameters(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.add_parameter("Friction coefficient", friction, "Coulomb friction between grains [-].", Double(0.));
+    prm.add_parameter(
+      "Wall friction coefficient", wall_friction, "Coulomb friction between grains and walls [-].", Double(0.));
+    prm.add_parameter("Friction of single walls",
+                      single_friction,
+                      "Coulomb friction of walls for which it is another, as `name: value, ...` [-].");
+    prm.add_parameter(
+      "Rolling friction coefficient",
+      rolling_friction,
+      "Rolling friction of grains and of grains with walls [-]: a moment of up to this times the normal "
+      "force times the reduced radius r1 r2 / (r1 + r2), or the grain's radius at a wall, resists "
+      "relative rotation. A disc stays where it is on a slope of up to this.",
+      Double(0.));
+    prm.add_parameter("Rolling friction of single walls",
+                      single_rolling_friction,
+                      "Rolling friction of walls for which it is another, as `name: value, ...` [-].");
+    prm.add_parameter("Restitution",
+                      restitution,
+                      "Newton's coefficient of restitution [-]: 0, an impact ends the approach; 1, it turns it around.",
+                      Double(0., 1.));
+    prm.add_parameter("Restitution of single walls",
+                      single_restitution,
+                      "Restitution of walls for which it is another, as `name: value, ...` [-].");
+    prm.add_parameter("Restitution threshold velocity",
+                      threshold_velocity,
+                      "Impacts slower than this do not bounce, so that grains come to rest [m/s].",
+                      Double(0.));
+    prm.add_parameter("Grains rotate", rotation, "If false, grains never spin, as if they were blocks.");
+    prm.add_parameter(
+      "Residual tolerance",
+      residual_tolerance,
+      "How far a contact impulse may be from its law, root mean square over all contacts, over the root mean "
+      "square impulse or, if larger, that of the weight of one grain in a sub-step [-]. With much more than 1e-5 the "
+      "floor of a bed no longer carries all of its weight; with much more than 1e-6 a loaded bed creeps. In sub-steps "
+      "shorter than 0.2 sqrt(d/g) both tolerances are wider by the ratio, at most ten times: the speed at which the "
+      "bed "
+      "creeps is then the same.",
+      Double(0.));
+    prm.add_parameter("Largest violation", violation_tolerance, "The same for the worst contact [-].", Double(0.));
+    prm.add_parameter("Patience",
+                      patience,
+                      "After this many sweeps (ten times as many where the grains are not on the move) the tolerances "
+                      "grow with the fourth power of the number of sweeps: where grains slide, a tight tolerance may "
+                      "be out of reach, and there it matters less.",
+                      Integer(1));
+    prm.add_parameter("Moving speed",
+                      moving_speed,
+                      "The grains are on the move if their root mean square speed is above this times g dt [-]. Where "
+                      "they are not, a looser tolerance would let a loaded bed creep.",
+                      Double(0.));
+    prm.add_parameter(
+      "Loose factor", loose, "The most by which the tolerances grow [-]. 1: they never do.", Double(1.));
+    prm.add_parameter("Largest number of sweeps",
+                      max_sweeps,
+                      "A sub-step that is not solved after this many sweeps is taken as two halves.",
+                      Integer(1));
+    prm.add_parameter(
+      "Largest number of halvings",
+      max_halvings,
+      "How often a sub-step may be halved before its best solution is taken and reported as unconverged.",
+      Integer(0, 20));
+    prm.add_parameter(
+      "Largest move per sub-step",
+      max_move,
+      "The fastest grain sets the sub-step: it moves at most by this fraction of the smallest diameter [-].",
+      Double(1e-6, 1.));
+    prm.add_parameter(
+      "Dead zone",
+      dead_zone,
+      "Gaps and overlaps below this times dt sqrt(g d) count as closed [-], so that a bed at rest does not "
+      "chatter: 1e-5 d at dt = 1e-4 s, 1e-4 d at 1e-3 s for sand of 0.2 mm. Never more than 1e-3 d.",
+      Double(0.));
+    prm.add_parameter(
+      "Overlap correction",
+      correction,
+      "The part of an overlap that is opened in one sub-step [-]. Small values are gentle; an overlap is an error of "
+      "the solver or of the initial state, and opening it costs spurious velocity.",
+      Double(0., 1.));
+    prm.add_parameter(
+      "Push-out speed",
+      push_out,
+      "Overlaps that are there from the start open at most at this times sqrt(g d) [-], so that they do not explode.",
+      Double(0.));
+    prm.add_parameter(
+      "Cold start",
+      cold_start,
+      "Whether a bed whose contact impulses are not known yet starts from a hydrostatic guess, layer by "
+      "layer, instead of from zero.");
+    prm.add_parameter("Steps to rest",
+                      rest_steps,
+                      "When over this many steps no load has changed by more than 1e-3 of a grain's weight and no "
+                      "grain has moved by more than an acceleration of 4e-4 g would have moved it, the grains "
+                      "stand still, and contacts are solved no more until something changes. 0: always solve.",
+                      Integer(0));
+    prm.add_parameter(
+      "Search skin",
+      skin,
+      "Pairs nearer than this fraction of the largest diameter are remembered between contact searches [-]. Costs "
+      "time; changes results only within the tolerance, by the order in which contacts are solved.",
+      Double(1e-3));
+    prm.add_parameter("Least grains a rank",
+                      least_share,
+                      "MPI ranks share the work of contacts if each gets this many grains; below, messages would cost "
+                      "more than they save, and every rank does all. Results have the same bits either way.",
+                      Integer(1));
+  }
+} // namespace alluvium::contacts

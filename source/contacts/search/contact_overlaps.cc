@@ -1,0 +1,58 @@
+#include <alluvium/contacts/search/contact_overlaps.h>
+#include <alluvium/contacts/search/contact_search.h>
+#include <alluvium/utilities/user_error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace alluvium::contacts
+{
+  std::vector<Overlap> find_overlaps(const grains::GrainArrays              &grains,
+                                     const std::vector<grains::WallSegment> &walls,
+                                     const double                            tolerance,
+                                     const grains::Periodicity              &periodicity)
+  {
+    ContactGeometry geometry;
+    geometry.walls.set(walls);
+    geometry.periodicity               = periodicity;
+    const ContactCandidates candidates = find_candidates(grains, geometry, 0.);
+    std::vector<Overlap>    overlaps;
+    for (const ContactPair &p : candidates.discs)
+      {
+        double dx = grains.x[p.j] - grains.x[p.i], dy = grains.y[p.j] - grains.y[p.i];
+        periodicity.shorten(dx, dy);
+        const double depth = grains.radius[p.i] + grains.radius[p.j] - std::hypot(dx, dy);
+        if (depth > tolerance)
+          overlaps.push_back({grains.id[p.i], grains.id[p.j], "", depth});
+      }
+    for (const ContactPair &p : candidates.walls)
+      {
+        ContactPoint point;
+        if (geometry.walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point) &&
+            -point.gap > tolerance)
+          overlaps.push_back({grains.id[p.i], 0, walls[p.j].name.empty() ? "wall" : walls[p.j].name, -point.gap});
+      }
+    std::stable_sort(
+      overlaps.begin(), overlaps.end(), [](const Overlap &p, const Overlap &q) { return p.depth > q.depth; });
+    return overlaps;
+  }
+
+  void check_overlaps(const grains::GrainArrays              &grains,
+                      const std::vector<grains::WallSegment> &walls,
+                      const double                            tolerance,
+                      const grains::Periodicity              &periodicity)
+  {
+    const std::vector<Overlap> overlaps = find_overlaps(grains, walls, tolerance, periodicity);
+    if (overlaps.empty())
+      return;
+    const Overlap     &worst = overlaps.front();
+    const std::size_t  k     = std::lower_bound(grains.id.begin(), grains.id.end(), worst.a) - grains.id.begin();
+    std::ostringstream text;
+    text << "Grain " << worst.a << " at (" << grains.x[k] << ", " << grains.y[k] << ") m overlaps "
+         << (worst.wall.empty() ? "grain " + std::to_string(worst.b) : "the wall '" + worst.wall + "'") << " by "
+         << worst.depth << " m, " << worst.depth / (2. * grains.radius[k]) << " of its diameter; " << overlaps.size()
+         << " pairs overlap by more than " << tolerance << " m. Move the grains apart.";
+    throw UserError(text.str());
+  }
+} // namespace alluvium::contacts

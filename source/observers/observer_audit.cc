@@ -1,0 +1,128 @@
+#include <alluvium/observers/observer.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace alluvium::observers
+{
+  namespace
+  {
+    /** The books: what should be zero, scaled by what it is made of. */
+    class Audit : public Observer
+    {
+    public:
+      bool applies(const Snapshot &s) const override { return s.fluid || s.contacts || s.step == 0; }
+
+      void add_columns(const Snapshot &s, output::Statistics &statistics) override
+      {
+        if (s.fluid)
+          for (const auto *name : {"third_law_defect",
+                                   "clipped_solid_volume_m2",
+                                   "prediction_defect_mean_m_per_s",
+                                   "prediction_defect_max_m_per_s",
+                                   "momentum_not_received_over_force",
+                                   "fluid_residual"})
+            statistics.add_column(name);
+        statistics.add_column("mean_penetration_over_d");
+        statistics.add_column("contact_residual");
+      }
+
+      void observe(const Snapshot &s) override
+      {
+        if (s.step == 0 || !s.fluid)
+          return;
+        const auto &report = s.fluid->coupling.report();
+        for (unsigned int d = 0; d < 2; ++d)
+          not_received[d] += s.dt * report.unseen_force[d];
+        not_received_gross += s.dt * std::hypot(report.unseen_force[0], report.unseen_force[1]);
+        received += s.dt * report.force_scale;
+      }
+
+      void write(const Snapshot &s, output::Statistics &statistics) override
+      {
+        if (s.step == 0)
+          return;
+        if (s.fluid)
+          {
+            s.fluid->coupling.audit();
+            const auto &report = s.fluid->coupling.report();
+            const auto &v_star = s.fluid->coupling.predicted_velocity();
+            double      mean = 0., largest = 0., defect = 0.;
+            for (std::size_t i = 0; i < std::min(s.grains.n(), v_star.size()); ++i)
+              {
+                const double d = std::hypot(s.grains.vx[i] - v_star[i][0], s.grains.vy[i] - v_star[i][1]);
+                mean += d / s.grains.n();
+                largest = std::max(largest, d);
+              }
+            for (unsigned int d = 0; d < 2; ++d)
+              defect = std::max(defect, std::abs(report.force_on_grains[d] + report.force_on_fluid[d]));
+            third_law = std::max(third_law, report.force_scale > 0. ? defect / report.force_scale : 0.);
+            statistics.set("third_law_defect", report.force_scale > 0. ? defect / report.force_scale : 0.);
+            statistics.set("clipped_solid_volume_m2", report.clipped_volume);
+            statistics.set("prediction_defect_mean_m_per_s", mean);
+            statistics.set("prediction_defect_max_m_per_s", largest);
+            statistics.set("momentum_not_received_over_force",
+                           report.force_scale > 0.
+                             ? std::hypot(report.unseen_force[0], report.unseen_force[1]) / report.force_scale
+                             : 0.);
+            statistics.set("fluid_residual", s.fluid->solver.last_report().residual);
+          }
+        if (s.contacts)
+          {
+            const double d = s.grains.n() > 0 ? grains::mean_diameter(s.grains) : 1.;
+            statistics.set("mean_penetration_over_d", s.contacts->mean_penetration / d);
+            statistics.set("contact_residual", s.contacts->residual);
+            penetration = std::max(penetration, s.contacts->max_penetration / d);
+          }
+      }
+
+      void conclude(output::Summary &summary) const override
+      {
+        summary.set("audit/largest_third_law_defect", third_law);
+        summary.set("audit/largest_penetration_over_d", penetration);
+        if (received > 0.)
+          {
+            constexpr double allowed = 1e-3;
+            const double     share   = std::hypot(not_received[0], not_received[1]) / received;
+            summary.set("audit/momentum_not_received_over_impulse", share);
+            summary.set("audit/momentum_not_received_without_regard_to_sign", not_received_gross / received);
+            if (share > allowed)
+              summary.warn(
+                "More than 0.1 % of the momentum that fluid and grains exchanged did not reach the fluid (see "
+                "audit/momentum_not_received_over_impulse): where grains begin to move, contact forces are "
+                "not what the fluid was solved with. Smaller time steps make it less, and so does Coupling/Time "
+                "scheme = iterated where it is not in use.");
+          }
+      }
+
+      void save(nlohmann::ordered_json &state) const override
+      {
+        state = {third_law, penetration, not_received[0], not_received[1], not_received_gross, received};
+      }
+
+      void load(const nlohmann::ordered_json &state) override
+      {
+        third_law   = state.at(0).get<double>();
+        penetration = state.at(1).get<double>();
+        for (unsigned int d = 0; d < 2; ++d)
+          not_received[d] = state.at(2 + d).get<double>();
+        not_received_gross = state.at(4).get<double>();
+        received           = state.at(5).get<double>();
+      }
+
+    private:
+      double third_law = 0., penetration = 0.;
+      // momentum that grains got and the fluid did not, and sum of |force| dt over the grains [N s/m]
+      std::array<double, 2> not_received       = {{0., 0.}};
+      double                not_received_gross = 0., received = 0.;
+    };
+  } // namespace
+
+  ALLUVIUM_REGISTER_OBSERVER(
+    Audit,
+    "audit",
+    "What should vanish: defect of the third law, clipped solid volume, prediction defect |v - v*|, drag "
+    "momentum that the grains got and the fluid did not, residuals, penetration.")
+} // namespace alluvium::observers

@@ -1,0 +1,122 @@
+#include <alluvium/output/statistics.h>
+#include <alluvium/utilities/atomic_file.h>
+#include <alluvium/utilities/first_rank.h>
+#include <alluvium/utilities/user_error.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+
+namespace alluvium::output
+{
+  namespace
+  {
+    const double not_set = std::numeric_limits<double>::quiet_NaN();
+
+  } // namespace
+
+  Statistics::Statistics(const std::string &file_name, MPI_Comm communicator, const unsigned int precision)
+    : file_name(file_name)
+    , communicator(communicator)
+    , precision(precision)
+    , is_writer(is_first_rank(communicator))
+  {}
+
+  void Statistics::add_column(const std::string &name)
+  {
+    AssertThrow(!is_started, dealii::ExcMessage("Column '" + name + "' comes after the first row."));
+    AssertThrow(std::find(columns.begin(), columns.end(), name) == columns.end(),
+                dealii::ExcMessage("There are two columns '" + name + "'."));
+    AssertThrow(name.find_first_of(",\"\n") == std::string::npos,
+                dealii::ExcMessage("'" + name + "' cannot name a column of a .csv file."));
+    columns.push_back(name);
+    row.push_back(not_set);
+  }
+
+  void Statistics::set(const std::string &column, const double value)
+  {
+    const auto place = std::find(columns.begin(), columns.end(), column);
+    AssertThrow(place != columns.end(), dealii::ExcMessage("There is no column '" + column + "'."));
+    row[place - columns.begin()] = value;
+  }
+
+  void Statistics::write_row()
+  {
+    if (!is_started)
+      open(false);
+    int problem = 0; // errno
+    if (is_writer)
+      {
+        for (std::size_t i = 0; i < row.size(); ++i)
+          file << (i == 0 ? "" : ",") << formatted(row[i]);
+        errno = 0;
+        file << '\n' << std::flush;
+        problem = file.good() ? 0 : std::max(errno, 1);
+      }
+    MPI_Bcast(&problem, 1, MPI_INT, 0, communicator);
+    check_user(problem == 0, "cannot write '" + file_name + "': " + std::strerror(problem) + ".");
+    std::fill(row.begin(), row.end(), not_set);
+  }
+
+  void Statistics::resume(const double time)
+  {
+    AssertThrow(!is_started, dealii::ExcMessage("resume() comes before the first row."));
+    on_first_rank(communicator, [&] {
+      std::ifstream old(file_name);
+      check_user(old.good(), "cannot read '" + file_name + "' to continue it: " + std::strerror(errno) + ".");
+      std::string line, kept;
+      std::getline(old, line);
+      check_user(line == header(),
+                 "'" + file_name + "' has other columns than this run; was the scene changed since?\n  it has: " +
+                   line + "\n  this run: " + header());
+      kept = line + '\n';
+
+      // Compare with the time as it was written: rounding may have taken it past the given one.
+      const double last = std::strtod(formatted(time).c_str(), nullptr);
+      while (std::getline(old, line))
+        {
+          const bool is_whole = !old.eof() && std::count(line.begin(), line.end(), ',') + 1 == long(columns.size());
+          if (!is_whole || std::strtod(line.c_str(), nullptr) > last)
+            break;
+          kept += line + '\n';
+        }
+      old.close();
+      write_atomically(file_name, kept);
+    });
+    open(true);
+  }
+
+  void Statistics::open(const bool append)
+  {
+    is_started = true;
+    on_first_rank(communicator, [&] {
+      file.open(file_name, append ? std::ios::app : std::ios::trunc);
+      if (!append)
+        file << header() << '\n' << std::flush;
+      check_user(file.good(), "cannot write '" + file_name + "': " + std::strerror(errno) + ".");
+    });
+  }
+
+  std::string Statistics::header() const
+  {
+    std::string text;
+    for (const auto &column : columns)
+      text += (text.empty() ? "" : ",") + column;
+    return text;
+  }
+
+  std::string Statistics::formatted(const double value) const
+  {
+    if (std::isnan(value))
+      return "";
+    char text[50];
+    std::snprintf(text, sizeof(text), "%.*g", int(precision), value == 0. ? 0. : value); // no -0
+    return text;
+  }
+} // namespace alluvium::output

@@ -1,0 +1,62 @@
+#include <alluvium/refinement/refinement_criterion.h>
+#include <alluvium/utilities/expression.h>
+#include <alluvium/utilities/plugin.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <algorithm>
+
+namespace alluvium::refinement
+{
+  namespace
+  {
+    /** The size that a formula gives. */
+    class FunctionCriterion : public RefinementCriterion
+    {
+    public:
+      void add_parameters(dealii::ParameterHandler &prm) override
+      {
+        prm.add_parameter(
+          "Cell size",
+          text,
+          "Size of the cells in mean grain diameters (h/d), a formula in x and y [m] and t [s], in which d is "
+          "the mean grain diameter [m] and pi is known: for example `if(abs(x - 0.1 - 0.02*t) < 5*d, 1, "
+          "8)`. It is looked at in nine points of a cell.",
+          dealii::Patterns::Anything());
+      }
+
+      void prepare(const RefinementContext &context) override
+      {
+        if (!function)
+          function = parse_expressions("Mesh refinement/Criteria: function/Cell size",
+                                       {text},
+                                       {{"d", context.grain_diameter}, {"pi", dealii::numbers::PI}});
+        function->set_time(context.time);
+      }
+
+      double wanted_size(const mesh::Box &box, const RefinementContext &context, const Purpose) const override
+      {
+        double result = no_wish;
+        for (const double a : {0., 0.5, 1.})
+          for (const double b : {0., 0.5, 1.})
+            {
+              const dealii::Point<2> point(box.lower[0] + a * (box.upper[0] - box.lower[0]),
+                                           box.lower[1] + b * (box.upper[1] - box.lower[1]));
+              const double           size = function->value(point);
+              if (!(size > 0.)) // the message is dear, and this is asked for every cell
+                throw UserError("Mesh refinement/Criteria: function/Cell size: '" + text + "' is " +
+                                std::to_string(size) + " at x = " + std::to_string(point[0]) +
+                                ", y = " + std::to_string(point[1]) + "; sizes must be positive.");
+              result = std::min(result, size * context.grain_diameter);
+            }
+        return result;
+      }
+
+    private:
+      std::string                          text = "4";
+      std::shared_ptr<dealii::Function<2>> function;
+    };
+  } // namespace
+
+  ALLUVIUM_REGISTER(RefinementCriterion, FunctionCriterion, "function", "the size that a formula gives.")
+} // namespace alluvium::refinement

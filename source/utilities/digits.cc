@@ -1,0 +1,13 @@
+#include <alluvium/utilities/digits.h>
+
+#include <sstream>
+
+namespace alluvium
+{
+  std::string in_digits(const double x)
+  {
+    std::ostringstream text;
+    text << x;
+    return text.str();
+  }
+} // namespace alluvium

@@ -1,0 +1,217 @@
+// When grains stand still, and what wakes them.
+#include <alluvium/contacts/contact_stepper.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace alluvium::grains;
+
+namespace
+{
+  constexpr double g = 9.81, r = 5e-4, dt = 1e-3;
+
+  /** A column of discs between two walls. */
+  struct Column
+  {
+    GrainArrays    grains;
+    GrainLoads     loads;
+    ContactStepper stepper;
+    ContactReport  report;
+
+    explicit Column(const unsigned int n)
+    {
+      stepper.set_walls({{{{-r, 0.}}, {{r, 0.}}, {}, "floor"},
+                         {{{-r, 0.}}, {{-r, 1.}}, {}, "left"},
+                         {{{r, 0.}}, {{r, 1.}}, {}, "right"}});
+      grains.resize(n);
+      for (unsigned int k = 0; k < n; ++k)
+        {
+          grains.id[k]     = k;
+          grains.y[k]      = (2 * k + 1) * r;
+          grains.radius[k] = r;
+          grains.mass[k]   = 1.;
+        }
+      load(1.);
+    }
+
+    void load(const double factor)
+    {
+      loads.reset(grains.n());
+      for (double &f : loads.fy)
+        f = -g * factor;
+    }
+
+    void step(const unsigned int n = 1)
+    {
+      for (unsigned int k = 0; k < n; ++k)
+        report = stepper.advance(grains, loads, dt, {{0., -g}});
+    }
+  };
+} // namespace
+
+TEST(Rest, UnchangedGrainsStandStill)
+{
+  Column column(5);
+  column.step(column.stepper.settings().rest_steps);
+  EXPECT_FALSE(column.report.at_rest);
+  const auto y = column.grains.y;
+  column.step(100);
+  EXPECT_TRUE(column.report.at_rest);
+  EXPECT_EQ(column.report.n_sweeps, 0u);
+  EXPECT_EQ(column.grains.y, y);
+  for (unsigned int k = 0; k < 5; ++k)
+    {
+      EXPECT_EQ(column.grains.vy[k], 0.);
+      EXPECT_EQ(column.grains.fcy[k], g);
+      EXPECT_TRUE(column.stepper.touched()[k]);
+    }
+  EXPECT_NEAR(column.report.wall_force.at("floor")[1], -5. * g, 1e-4 * g);
+}
+
+TEST(Rest, OtherLoadsWakeThem)
+{
+  Column column(5);
+  column.step(50);
+  ASSERT_TRUE(column.report.at_rest);
+  column.load(0.5);
+  column.step();
+  EXPECT_FALSE(column.report.at_rest);
+  EXPECT_NEAR(column.report.wall_force.at("floor")[1], -2.5 * g, 1e-4 * g);
+  column.step(50);
+  ASSERT_TRUE(column.report.at_rest);
+  column.load(-1e-2);
+  column.step(20);
+  EXPECT_NEAR(column.grains.vy[0], 20 * dt * 1e-2 * g, 1e-8);
+}
+
+TEST(Rest, ASlowChangeOfLoadAddsUp)
+{
+  Column column(5);
+  column.step(50);
+  ASSERT_TRUE(column.report.at_rest);
+  for (unsigned int k = 1; k <= 1000; ++k)
+    {
+      column.load(1. - 1e-4 * k);
+      column.step();
+    }
+  EXPECT_NEAR(column.report.wall_force.at("floor")[1], -5. * g * 0.9, 5e-3 * 5. * g);
+}
+
+TEST(Rest, AKickOrAMovedWallWakesThem)
+{
+  Column column(5);
+  column.step(50);
+  ASSERT_TRUE(column.report.at_rest);
+  column.grains.vy[4] = 0.1;
+  column.step();
+  EXPECT_FALSE(column.report.at_rest);
+  EXPECT_NEAR(column.grains.vy[4], 0.1 - g * dt, 1e-10);
+  column.step(200);
+  ASSERT_TRUE(column.report.at_rest);
+  column.stepper.set_walls({});
+  column.step();
+  EXPECT_NEAR(column.grains.vy[0], -g * dt, 1e-10);
+}
+
+TEST(Rest, ASlowSlopeIsNoRest)
+{
+  // A disc rolls down one in a thousand, with 2/3 g sin a.
+  const double   slope = 1e-3;
+  GrainArrays    grains;
+  GrainLoads     loads;
+  ContactStepper stepper;
+  stepper.set_walls({{{{-1., 0.}}, {{1., 0.}}, {}, "floor"}});
+  grains.resize(1);
+  grains.y[0] = grains.radius[0] = r;
+  grains.mass[0]                 = 1.;
+  loads.reset(1);
+  loads.fx[0] = g * std::sin(slope);
+  loads.fy[0] = -g * std::cos(slope);
+  for (unsigned int k = 0; k < 200; ++k)
+    stepper.advance(grains, loads, dt, {{g * std::sin(slope), -g * std::cos(slope)}});
+  EXPECT_NEAR(grains.vx[0], 2. / 3. * g * std::sin(slope) * 200 * dt, 1e-8);
+}
+
+TEST(Rest, CanBeSwitchedOff)
+{
+  Column column(5);
+  column.stepper.settings().rest_steps = 0;
+  column.step(100);
+  EXPECT_FALSE(column.report.at_rest);
+}
+
+// A grain in mid-water that a slow stream carries along, less in a step than rest looks at: it touches nothing.
+TEST(Rest, WhatTouchesNothingDoesNotSleep)
+{
+  const double   u = 1e-6, drag = 1e-3; // [m/s], [N s/m^2] of a grain of 1 kg/m: far slower than 4e-4 g allows
+  GrainArrays    grains;
+  GrainLoads     loads;
+  ContactStepper stepper;
+  ContactReport  report;
+  stepper.set_walls({{{{-1., 0.}}, {{1., 0.}}, {}, "floor"}});
+  grains.resize(2);
+  grains.id     = {0, 1};
+  grains.y      = {r, 10. * r};
+  grains.radius = {r, r};
+  grains.mass   = {1., 1.};
+  grains.vx[1]  = u;
+  loads.reset(2);
+  loads.fy[0]   = -g;
+  loads.fx[1]   = drag * u;
+  loads.drag[1] = drag;
+  for (unsigned int k = 0; k < 200; ++k)
+    report = stepper.advance(grains, loads, dt, {{0., -g}});
+  EXPECT_FALSE(report.at_rest);
+  EXPECT_NEAR(grains.x[1] / (u * 200 * dt), 1., 1e-9);
+  EXPECT_EQ(grains.fcx[1], 0.);
+}
+
+// Nor do two that touch each other only, or one that creeps down a wall as fast as a thick fluid lets it.
+TEST(Rest, WhatSinksTogetherDoesNotSleep)
+{
+  const double   u = 1e-6, drag = 1e3; // [m/s], [N s/m^2]
+  GrainArrays    grains;
+  GrainLoads     loads;
+  ContactStepper stepper;
+  ContactReport  report;
+  stepper.set_walls({{{{-1., 0.}}, {{1., 0.}}, {}, "floor"}});
+  grains.resize(2);
+  grains.id     = {0, 1};
+  grains.y      = {10. * r, 12. * r};
+  grains.radius = {r, r};
+  grains.mass   = {1., 1.};
+  grains.vy     = {-u, -u};
+  loads.reset(2);
+  loads.fy   = {g, -g - 2. * drag * u}; // the upper one presses on the lower one
+  loads.drag = {drag, drag};
+  for (unsigned int k = 0; k < 200; ++k)
+    report = stepper.advance(grains, loads, dt, {{0., -g}});
+  EXPECT_FALSE(report.at_rest);
+  EXPECT_NEAR((10. * r - grains.y[0]) / (u * 200 * dt), 1., 1e-3);
+}
+
+TEST(Rest, WhatCreepsDownASlopeDoesNotSleep)
+{
+  const double   u = 1e-6, slope = 0.5, drag = g * std::sin(slope) / u;
+  GrainArrays    grains;
+  GrainLoads     loads;
+  ContactStepper stepper;
+  ContactReport  report;
+  stepper.settings().wall_friction = 0.;
+  stepper.set_walls({{{{-1., 0.}}, {{1., 0.}}, {}, "slope"}});
+  grains.resize(1);
+  grains.id     = {0};
+  grains.y      = {r};
+  grains.radius = {r};
+  grains.mass   = {1.};
+  grains.vx     = {u};
+  loads.reset(1);
+  loads.fx   = {g * std::sin(slope)};
+  loads.fy   = {-g * std::cos(slope)};
+  loads.drag = {drag};
+  for (unsigned int k = 0; k < 200; ++k)
+    report = stepper.advance(grains, loads, dt, {{g * std::sin(slope), -g * std::cos(slope)}});
+  EXPECT_FALSE(report.at_rest);
+  EXPECT_NEAR(grains.x[0] / (u * 200 * dt), 1., 1e-3);
+}

@@ -1,0 +1,47 @@
+#include "fixtures/test_mesh.h"
+
+#include <alluvium/fluid/fluid_space.h>
+#include <alluvium/fluid/largest_speed.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace
+{
+  using namespace alluvium;
+  using namespace mesh_test;
+
+  /** The fluid's space on the meshes of a domain: the same on any number of ranks. */
+  TEST(FluidSpaceOnDomain, TrianglesAndQuadrilateralsOfAMeshFile)
+  {
+    for (const std::string name : {"triangles_41", "quadrilaterals_41"})
+      {
+        dealii::ParameterHandler prm;
+        mesh::Domain<2>          domain;
+        set_parameters(domain, prm, {{"Domain/Mesh file", name + ".msh"}});
+        domain.initialize(MPI_COMM_WORLD, std::string(ALLUVIUM_TEST_DATA));
+        const auto triangulation = domain.make_triangulation(0.);
+
+        fluid::BoundaryConditions<2> boundary_conditions;
+        for (const auto &[boundary, id] : domain.boundary_ids())
+          boundary_conditions.set(id, {fluid::BoundaryConditions<2>::Kind::no_slip, boundary, nullptr});
+        boundary_conditions.pin(true);
+        fluid::FluidSpace<2> space(*triangulation);
+        space.reinit(boundary_conditions);
+
+        EXPECT_EQ(space.n_dofs(), 3 * space.nodal_dof_handler().n_dofs()) << name;
+        EXPECT_EQ(space.nodal_dof_handler().n_dofs(), name == "triangles_41" ? triangulation->n_vertices() : 21u);
+        fluid::Vector one = space.make_nodal_field();
+        one               = 1.;
+        EXPECT_NEAR(space.node_volumes() * one, 0.75, 1e-12) << name;
+        // 5 for components of 3 and 4
+        fluid::BlockVector field = space.make_field();
+        for (unsigned int i = 0; i < field.block(0).locally_owned_size(); ++i)
+          field.block(0).local_element(i) = i % 2 == 0 ? -3. : 4.;
+        field.update_ghost_values();
+        EXPECT_NEAR(fluid::largest_speed(space, field.block(0)), 5., 1e-12) << name;
+        const auto n_cells =
+          dealii::Utilities::MPI::sum(static_cast<unsigned int>(space.cells().size()), MPI_COMM_WORLD);
+        EXPECT_EQ(n_cells, triangulation->n_global_active_cells()) << name;
+      }
+  }
+} // namespace
