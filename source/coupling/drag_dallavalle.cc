@@ -39,9 +39,9 @@ namespace alluvium::coupling
         : DallavalleDrag(2. / dealii::numbers::PI, 0.63, 4.8)
       {}
     };
-    struct SphereDrag : DallavalleDrag
+    struct StandardSphere : DallavalleDrag
     {
-      SphereDrag()
+      StandardSphere()
         : DallavalleDrag(0.75, 0.63, 4.8)
       {}
     };
@@ -54,7 +54,7 @@ namespace alluvium::coupling
   } // namespace
 
   ALLUVIUM_REGISTER_DRAG_LAW(DiscDrag, "disc", "Dallavalle-Di Felice for a slice of a cylinder across the flow.")
-  ALLUVIUM_REGISTER_DRAG_LAW(SphereDrag, "sphere", "Dallavalle-Di Felice for spheres.")
+  ALLUVIUM_REGISTER_DRAG_LAW(StandardSphere, "sphere", "Dallavalle-Di Felice for spheres.")
   ALLUVIUM_REGISTER_DRAG_LAW(
     PaperDrag,
     "paper",
