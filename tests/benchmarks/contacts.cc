@@ -34,6 +34,8 @@
 #include <sys/resource.h>
 
 using namespace alluvium;
+using namespace alluvium::contacts;
+using namespace alluvium::deposits;
 using namespace alluvium::grains;
 
 namespace

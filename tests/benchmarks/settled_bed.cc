@@ -28,6 +28,8 @@
 #include <string>
 
 using namespace alluvium;
+using namespace alluvium::contacts;
+using namespace alluvium::deposits;
 using namespace alluvium::grains;
 
 namespace

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+using namespace alluvium::contacts;
 using namespace alluvium::grains;
 
 namespace

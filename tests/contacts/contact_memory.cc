@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+using namespace alluvium::contacts;
 using namespace alluvium::grains;
 using test::Scene;
 

@@ -9,8 +9,10 @@
 #include <cmath>
 #include <string>
 
-namespace alluvium::grains::test
+namespace alluvium::contacts::test
 {
+  using namespace grains;
+
   constexpr double g = 9.81, d = 1e-3, r = 0.5 * d, density = 2500.; // SI
 
   /** A few grains, walls and a stepper, under gravity and whatever drag a test sets. */
@@ -108,4 +110,4 @@ namespace alluvium::grains::test
       stepper.settings().rest_steps         = 0;
     }
   };
-} // namespace alluvium::grains::test
+} // namespace alluvium::contacts::test

@@ -9,8 +9,10 @@
 #include <cmath>
 #include <vector>
 
+using alluvium::RandomNumbers;
+using namespace alluvium::contacts;
 using namespace alluvium::grains;
-using namespace alluvium::grains::test;
+using namespace alluvium::contacts::test;
 
 namespace
 {
@@ -325,6 +327,7 @@ TEST(ExactCases, JanssenSilo)
 // A heavy disc on two light ones: statically determinate, whatever the ratio of their sizes. What is not so is said.
 TEST(ExactCases, BoulderOnTwoGrains)
 {
+  using namespace alluvium::contacts;
   using namespace alluvium::grains;
   for (const double ratio : {10., 100., 300., 1000.})
     for (const double dt : {1e-3, 1e-4})

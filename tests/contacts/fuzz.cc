@@ -11,8 +11,10 @@
 #include <string>
 #include <vector>
 
+using alluvium::RandomNumbers;
+using namespace alluvium::contacts;
 using namespace alluvium::grains;
-using namespace alluvium::grains::test;
+using namespace alluvium::contacts::test;
 
 namespace
 {

@@ -10,8 +10,9 @@
 #include "contact_scene.h"
 
 using namespace alluvium;
+using namespace alluvium::contacts;
 using namespace alluvium::grains;
-using namespace alluvium::grains::test;
+using namespace alluvium::contacts::test;
 
 namespace
 {

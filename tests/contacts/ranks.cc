@@ -14,8 +14,9 @@
 #include <random>
 #include <set>
 
+using namespace alluvium::contacts;
 using namespace alluvium::grains;
-using namespace alluvium::grains::test;
+using namespace alluvium::contacts::test;
 
 namespace
 {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+using namespace alluvium::contacts;
 using namespace alluvium::grains;
 
 namespace

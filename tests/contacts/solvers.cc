@@ -18,6 +18,7 @@
 #include <vector>
 
 using namespace alluvium;
+using namespace alluvium::contacts;
 using namespace alluvium::grains;
 
 namespace

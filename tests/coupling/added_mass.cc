@@ -40,8 +40,8 @@ namespace
     loads.reset(1);
     scheme->loads(state, {{{0., 0.}}}, loads);
 
-    bed::grains::ContactStepper stepper;
-    ParameterHandler            prm;
+    alluvium::contacts::ContactStepper stepper;
+    ParameterHandler                   prm;
     stepper.add_parameters(prm);
     if (soft)
       prm.set("Contact model", "soft-sphere");

@@ -17,6 +17,7 @@ namespace bed
   using namespace dealii;
   namespace coupling = alluvium::coupling;
   namespace fluid    = alluvium::fluid;
+  namespace deposits = alluvium::deposits;
   namespace grains   = alluvium::grains;
 
   struct Bed

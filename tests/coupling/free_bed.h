@@ -77,13 +77,13 @@ namespace bed
       return sum / grains.n();
     }
 
-    double                     width, onset = 0.; // [m], and the reduced weight over the width [Pa]
-    Channel                    channel;
-    contacts::ContactStepper   stepper;
-    alluvium::Timers           timers;
-    coupling::ContactIteration iteration;
-    grains::GrainArrays        grains;
-    std::vector<std::uint8_t>  touched;
-    contacts::ContactReport    report;
+    double                             width, onset = 0.; // [m], and the reduced weight over the width [Pa]
+    Channel                            channel;
+    alluvium::contacts::ContactStepper stepper;
+    alluvium::Timers                   timers;
+    coupling::ContactIteration         iteration;
+    grains::GrainArrays                grains;
+    std::vector<std::uint8_t>          touched;
+    alluvium::contacts::ContactReport  report;
   };
 } // namespace bed

@@ -10,6 +10,7 @@
 
 namespace
 {
+  using alluvium::AndersonMixing;
   using namespace bed;
 
   TEST(AndersonMixing, SolvesALinearFixedPoint)

@@ -26,8 +26,8 @@ namespace
   /** Take over the spin after a step of the grains; the grain stays where it is. */
   void turn(bed::grains::GrainArrays &grain, const bed::grains::GrainLoads &loads, const double dt)
   {
-    bed::grains::ContactStepper stepper;
-    ParameterHandler            prm;
+    alluvium::contacts::ContactStepper stepper;
+    ParameterHandler                   prm;
     stepper.add_parameters(prm);
     bed::grains::GrainArrays moved = grain;
     stepper.advance(moved, loads, dt, {{0., 0.}});

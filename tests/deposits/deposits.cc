@@ -19,6 +19,8 @@
 #include <sstream>
 
 using namespace alluvium;
+using namespace alluvium::contacts;
+using namespace alluvium::deposits;
 using namespace alluvium::grains;
 
 namespace

@@ -15,6 +15,8 @@
 #include <cmath>
 
 using namespace alluvium;
+using namespace alluvium::contacts;
+using namespace alluvium::deposits;
 using namespace alluvium::grains;
 
 namespace

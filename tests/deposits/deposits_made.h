@@ -9,8 +9,10 @@
 #include <string>
 #include <vector>
 
-namespace alluvium::grains::test
+namespace alluvium::deposits::test
 {
+  using namespace grains;
+
   /** What the deposit @p name with @p parameters makes in @p c. */
   inline std::vector<Seed> make(const std::string &name, const std::string &parameters, const DepositContext &c)
   {
@@ -35,4 +37,4 @@ namespace alluvium::grains::test
       }
     return grains;
   }
-} // namespace alluvium::grains::test
+} // namespace alluvium::deposits::test

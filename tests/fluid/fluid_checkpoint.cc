@@ -20,6 +20,7 @@ namespace
 {
   using namespace dealii;
   using namespace alluvium;
+  using namespace alluvium::fluid;
   using namespace alluvium::mesh;
   using namespace mesh_test;
 

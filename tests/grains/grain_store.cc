@@ -19,6 +19,7 @@
 namespace
 {
   using namespace alluvium;
+  using namespace alluvium::contacts;
   using namespace alluvium::grains;
 
   /** @p n grains at random in the unit square, every number of theirs different. */

@@ -13,7 +13,9 @@ namespace
 {
   using namespace dealii;
   using namespace alluvium;
+  using alluvium::fluid::FieldTransfer;
   using namespace alluvium::mesh;
+  using namespace alluvium::refinement;
   using namespace mesh_test;
 
   using Parameters = std::vector<std::pair<std::string, std::string>>;

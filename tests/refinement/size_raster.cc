@@ -8,6 +8,7 @@
 namespace
 {
   using namespace alluvium::mesh;
+  using namespace alluvium::refinement;
 
   const Box domain{{{0., 0.}}, {{1., 2.}}};
 
