@@ -398,7 +398,8 @@ namespace alluvium::fluid
           {
             const std::string why_not = use_direct
                                           ? "These were with the factors of a direct solver: the equations are "
-                                            "singular, or nearly so."
+                                            "singular, or nearly so. Are Fluid/Viscosity, Fluid/Density and lengths "
+                                            "in SI units, and is the time step sensible?"
                                           : factorise(matrix);
             AssertThrow(why_not.empty(),
                         ExcMessage("The fluid's linear solver has not converged in " + std::to_string(limit) +

@@ -23,8 +23,8 @@ namespace alluvium::observers
     public:
       void add_parameters(dealii::ParameterHandler &prm) override
       {
-        prm.add_parameter("Bottom", bottom, "Only grains with their centre above are looked at [m].");
-        prm.add_parameter("Top", top, "Only grains with their centre below are looked at [m].");
+        prm.add_parameter("Bottom", bottom, "Only grains with their centre above are looked at [m]. By default all.");
+        prm.add_parameter("Top", top, "Only grains with their centre below are looked at [m]. By default all.");
       }
 
       bool applies(const Snapshot &s) const override
@@ -78,7 +78,8 @@ namespace alluvium::observers
         if (inside.n() == 0)
           return;
         mean /= volume;
-        const double packing = volume / ((s.right - s.left) * (top - bottom));
+        const double height  = std::min(top, s.top) - std::max(bottom, s.bottom);
+        const double packing = volume / ((s.right - s.left) * height);
         const double law =
           coupling::HomogeneousBed{inside, s.fluid->solver.properties, 1. - packing}.fluidisation_velocity(
             s.fluid->coupling.drag_law(), size);
@@ -93,7 +94,7 @@ namespace alluvium::observers
       }
 
     private:
-      double bottom = 0., top = 1.;
+      double bottom = -1e9, top = 1e9;
     };
   } // namespace
 

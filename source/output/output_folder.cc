@@ -25,6 +25,15 @@ namespace alluvium::output
       return fs::exists(folder / "statistics.csv") || fs::exists(folder / "parameters.prm");
     }
 
+    /** Throws @p complaint with the reason unless files can be made in @p folder. */
+    void check_writable(const fs::path &folder, const std::string &complaint)
+    {
+      if (access(folder.c_str(), W_OK | X_OK) == 0)
+        return;
+      const int reason = errno;
+      throw UserError(complaint + std::strerror(reason) + ".");
+    }
+
     /** What a run writes, and nothing else that somebody may have put beside it. */
     bool is_of_a_run(const fs::directory_entry &entry)
     {
@@ -116,11 +125,10 @@ namespace alluvium::output
         const fs::path    parent = fs::absolute(folder).parent_path();
         const std::string cannot = "the " + quoted() + " cannot be made: ";
         check_user(fs::is_directory(parent), cannot + "there is no folder '" + parent.string() + "' to make it in.");
-        check_user(access(parent.c_str(), W_OK | X_OK) == 0, cannot + std::strerror(errno) + ".");
+        check_writable(parent, cannot);
         return false;
       }
-    check_user(access(folder.c_str(), W_OK | X_OK) == 0,
-               "the " + quoted() + " cannot be written to: " + std::strerror(errno) + ".");
+    check_writable(folder, "the " + quoted() + " cannot be written to: ");
     const std::string holder = lock ? "" : FolderLock::holder_of(folder);
     check_user(holder.empty(), in_use(holder));
     return true;

@@ -118,9 +118,13 @@ namespace alluvium::run
   {
     if (!monitor.stops() && std::isfinite(sign.value))
       {
-        model.warnings.add("A step cannot be believed, which ends a run unless Divergence/Stop = false. First: " +
-                             in_words(sign, step, time),
-                           time);
+        // of one text, so that it is said once and counted; after a restart, too
+        const std::string kind = "A step cannot be believed, which ends a run unless Divergence/Stop = false. First: ";
+        std::string       text = kind + in_words(sign, step, time);
+        for (const auto &warning : model.warnings.all())
+          if (warning.text.compare(0, kind.size(), kind) == 0)
+            text = warning.text;
+        model.warnings.add(text, time);
         return;
       }
     output.add_to_summary("divergence/sign", sign.what);

@@ -61,9 +61,10 @@ namespace alluvium::run
             text += in_words(condition->second) + ", ";
           const auto &open  = m.domain.open_to_grains_names();
           const bool  opens = std::count(open.begin(), open.end(), name) > 0;
-          lines.push_back(text + (!walls.count(name) ? "open to grains"
-                                  : opens            ? "a wall for grains at times"
-                                                     : "a wall for grains"));
+          // a part of a side has no wall of its own: it is the side's
+          lines.push_back(text + (!opens               ? "a wall for grains"
+                                  : !walls.count(name) ? "open to grains"
+                                                       : "a wall for grains at times"));
         }
       return lines;
     }

@@ -120,11 +120,36 @@ namespace alluvium::run
   }
 
 
+  /**
+   * Power of a boundary that moves along itself, such as a lid, at most [W/m]: the speed of the face times the viscous
+   * force on the cell, and the force that gave the cell the momentum it gained in the step. Where viscosity reaches
+   * less than a cell in a step, the second is much larger.
+   */
+  double StepMeter::largest_shear_power(const Model &m, const Face &face) const
+  {
+    const auto &now = m.solver.solution().block(0), &before = m.solver.old().block(0);
+    const auto &cell   = m.space.cells()[face.cell];
+    double      speeds = 0., gains = 0., of_face = 0.;
+    for (unsigned int v = 0; v < m.space.n_nodes_per_cell(); ++v)
+      {
+        const auto  &dof = cell.velocity[v];
+        const double ux = now.local_element(dof[0]), uy = now.local_element(dof[1]);
+        speeds = std::max(speeds, std::hypot(ux, uy));
+        gains  = std::max(gains, std::hypot(ux - before.local_element(dof[0]), uy - before.local_element(dof[1])));
+        if (v == face.node[0] || v == face.node[1])
+          of_face = std::max(of_face, std::hypot(ux, uy));
+      }
+    const double viscous = 2. * m.solver.properties.viscosity * speeds / cell.size,
+                 inertia = 0.5 * m.solver.properties.density * cell.size * gains / m.time_step;
+    return of_face * (viscous + inertia) * std::hypot(face.normal[0], face.normal[1]);
+  }
+
+
   /** Power of pressures and inflows on this rank's open boundaries, at most; pressures against the lowest given. */
   double StepMeter::boundary_work(const Model &m) const
   {
     const auto  &u = m.solver.solution().block(0), &p = m.solver.solution().block(1);
-    const double rho = m.solver.properties.density, eta = m.solver.properties.viscosity;
+    const double rho      = m.solver.properties.density;
     double       range[2] = {std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
     const auto   pressure = [&](const Face &face, const unsigned int e) {
       return p.local_element(m.space.cells()[face.cell].pressure[face.node[e]]);
@@ -163,9 +188,9 @@ namespace alluvium::run
             power -= weight * flux * ((1. - s) * pressures[0] + s * pressures[1]);
             if (flux < 0.)
               power -= weight * flux * (face.given_pressure ? std::min(dynamic, difference) : dynamic);
-            if (!face.given_pressure) // what shear does, where the velocity is along the face
-              power += weight * eta * square / cell.size * std::hypot(face.normal[0], face.normal[1]);
           }
+        if (!face.given_pressure)
+          power += largest_shear_power(m, face);
       }
     // what is given is a flux, also where walls hold the nodes' velocity
     const auto *given = m.solver.problem().given_fluxes;

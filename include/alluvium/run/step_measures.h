@@ -59,6 +59,7 @@ namespace alluvium::run
     };
 
     void   find_faces(const Model &model);
+    double largest_shear_power(const Model &model, const Face &face) const;
     double boundary_work(const Model &model) const;
     double work_on_grains(const Model &model) const;
     void   remember(const Model &model, double kinetic);
