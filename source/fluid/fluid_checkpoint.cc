@@ -167,8 +167,8 @@ namespace alluvium::fluid
           nodal_transfer.prepare_for_serialization(nodal_fields);
         check_room(communicator, file(mesh_name), bytes_of(triangulation, n_values));
         // the disk may still fill up between the trial and the write
-        const P4estAbort    ends(communicator,
-                              "cannot write '" + file(mesh_name) + "': there is hardly any room left on the disk.");
+        const mesh::P4estAbort ends(
+          communicator, "cannot write '" + file(mesh_name) + "': there is hardly any room left on the disk.");
         const WorkingFolder here(folder);
         distributed->save(mesh_name);
       }
@@ -239,8 +239,8 @@ namespace alluvium::fluid
           check_user(crc32(content) == crc, "'" + path + "' is damaged: its checksum does not match.");
         }
     });
-    const P4estAbort    ends(communicator, "'" + file(mesh_name) + "' cannot be read.");
-    const WorkingFolder here(folder);
+    const mesh::P4estAbort ends(communicator, "'" + file(mesh_name) + "' cannot be read.");
+    const WorkingFolder    here(folder);
     distributed->load(mesh_name);
   }
 
