@@ -136,7 +136,7 @@ namespace alluvium::deposits
       if (y > box.lower[1] && y < box.upper[1])
         levels.push_back(y);
     };
-    for (const WallSegment &w : boundary)
+    for (const grains::WallSegment &w : boundary)
       {
         add(w.a[1]);
         add(w.b[1]);
