@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <sstream>
 
 namespace alluvium::output
 {
@@ -72,19 +73,18 @@ namespace alluvium::output
       check_user(old.good(), "cannot read '" + file_name + "' to continue it: " + std::strerror(errno) + ".");
       std::string line, kept;
       std::getline(old, line);
-      check_user(line == header(),
-                 "'" + file_name + "' has other columns than this run; was the scene changed since?\n  it has: " +
-                   line + "\n  this run: " + header());
-      kept = line + '\n';
+      const std::size_t n_old = take_columns_of(line);
+      kept                    = header() + '\n';
+      const std::string added(columns.size() - n_old, ',');
 
       // Compare with the time as it was written: rounding may have taken it past the given one.
       const double last = std::strtod(formatted(time).c_str(), nullptr);
       while (std::getline(old, line))
         {
-          const bool is_whole = !old.eof() && std::count(line.begin(), line.end(), ',') + 1 == long(columns.size());
+          const bool is_whole = !old.eof() && std::count(line.begin(), line.end(), ',') + 1 == long(n_old);
           if (!is_whole || std::strtod(line.c_str(), nullptr) > last)
             break;
-          kept += line + '\n';
+          kept += line + added + '\n';
         }
       old.close();
       write_atomically(file_name, kept);
@@ -101,6 +101,25 @@ namespace alluvium::output
         file << header() << '\n' << std::flush;
       check_user(file.good(), "cannot write '" + file_name + "': " + std::strerror(errno) + ".");
     });
+  }
+
+  /** Those of the old header @p line first, also those that are no longer filled; returns their number. */
+  std::size_t Statistics::take_columns_of(const std::string &line)
+  {
+    std::vector<std::string> all;
+    std::istringstream       names(line);
+    for (std::string name; std::getline(names, name, ',');)
+      all.push_back(name);
+    check_user(!all.empty() && all[0] == columns[0],
+               "'" + file_name + "' does not begin with the column '" + columns[0] +
+                 "': it is not what the interrupted run has written.");
+    const std::size_t n_old = all.size();
+    for (const auto &column : columns)
+      if (std::find(all.begin(), all.end(), column) == all.end())
+        all.push_back(column);
+    columns = all;
+    row.assign(columns.size(), not_set);
+    return n_old;
   }
 
   std::string Statistics::header() const

@@ -3,11 +3,13 @@
 #include <alluvium/run/model.h>
 #include <alluvium/run/output.h>
 #include <alluvium/run/restart_parameters.h>
+#include <alluvium/run/restart_walls.h>
 #include <alluvium/utilities/checked_file.h>
 #include <alluvium/utilities/first_rank.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/parameter_handler.h>
 #include <deal.II/grid/tria.h>
 
 #include <filesystem>
@@ -23,6 +25,19 @@ namespace alluvium::run
   namespace
   {
     const std::string history_file = "history", solver_file = "solver";
+
+    /** The walls at t = 0 as the parameters @p of_old of another run in @p domain say. */
+    std::vector<grains::WallSegment> walls_of(const std::map<std::string, std::string> &of_old,
+                                              const mesh::Domain<Model::dim>           &domain)
+    {
+      WallSetup        setup;
+      ParameterHandler prm;
+      setup.add_parameters(prm);
+      for (const std::string name : {"Extra walls", "Motion of walls", "Presence of walls"})
+        if (const auto value = of_old.find("Grains/" + name); value != of_old.end())
+          prm.set(name, value->second);
+      return setup.walls(domain);
+    }
   } // namespace
 
   void Checkpoint::write(const std::string &folder, Model &m, const Output &output)
@@ -131,14 +146,19 @@ namespace alluvium::run
   }
 
 
+  std::map<std::string, std::string> Checkpoint::parameters() const
+  {
+    std::map<std::string, std::string> result;
+    read([&] { result = state.at("parameters").get<std::map<std::string, std::string>>(); });
+    return result;
+  }
+
+
   std::vector<std::string> Checkpoint::compare_parameters(const Model &m) const
   {
-    std::vector<ParameterChange> changes;
-    bool                         never_refines = false;
-    read([&] {
-      changes = changed_parameters(state.at("parameters").get<std::map<std::string, std::string>>(), m.parameters);
-      never_refines = state.at("never refines");
-    });
+    const std::vector<ParameterChange> changes       = changed_parameters(parameters(), m.parameters);
+    bool                               never_refines = false;
+    read([&] { never_refines = state.at("never refines"); });
     return accept_changes(changes, never_refines, m.adaptivity.adapts());
   }
 
@@ -158,6 +178,14 @@ namespace alluvium::run
   {
     contacts::ContactArchive archive;
     contacts::load_grains(m.communicator, folder + "/grains", m.grains, archive);
+    const std::map<std::string, std::string> before  = parameters();
+    const std::vector<ParameterChange>       changes = changed_parameters(before, m.parameters);
+    if (change_walls(changes))
+      {
+        double time = 0.;
+        read([&] { time = state.at("time"); });
+        fit_to_walls(archive, walls_of(before, m.domain), m.contacts.walls(), time, m.time_step);
+      }
     m.contacts.set_archive(archive);
     read([&] {
       m.time            = state.at("time");
@@ -186,6 +214,8 @@ namespace alluvium::run
       m.touched = history.get_vector<std::uint8_t>();
       m.contacts.load(history);
     });
+    if (change_contacts(changes))
+      m.contacts.forget_search(); // and what rests
   }
 
 

@@ -57,6 +57,24 @@ namespace alluvium::run
   }
 
 
+  bool change_walls(const std::vector<ParameterChange> &changes)
+  {
+    return std::any_of(changes.begin(), changes.end(), [](const ParameterChange &change) {
+      return change.name == "Grains/Extra walls" || change.name == "Grains/Motion of walls" ||
+             change.name == "Grains/Presence of walls";
+    });
+  }
+
+
+  bool change_contacts(const std::vector<ParameterChange> &changes)
+  {
+    return std::any_of(changes.begin(), changes.end(), [](const ParameterChange &change) {
+      return begins_with(change.name, "Grains/") || begins_with(change.name, "Contacts/") ||
+             begins_with(change.name, "Domain/") || change.name == "Gravity" || change.name == "Time/Time step";
+    });
+  }
+
+
   std::vector<std::string>
   accept_changes(const std::vector<ParameterChange> &changes, const bool never_refines, const bool adapts)
   {

@@ -86,12 +86,22 @@ TEST_F(StatisticsTest, DropsATornLastLine)
   EXPECT_EQ(read("statistics.csv"), "time_s,differential_head_m\n0,0\n2,20\n");
 }
 
-TEST_F(StatisticsTest, DoesNotResumeAnotherScene)
+TEST_F(StatisticsTest, ColumnsComeAndGo)
 {
-  write("statistics.csv", "time_s,flux_m_s\n0,0\n");
+  write("statistics.csv", "time_s,flux_m_s\n0,5\n1,6\n2,7\n3");
   auto statistics = make();
-  EXPECT_NE(complaint<UserError>([&] { statistics.resume(1.); }).find("has other columns"), std::string::npos);
-  EXPECT_EQ(read("statistics.csv"), "time_s,flux_m_s\n0,0\n");
+  statistics.resume(1.);
+  write_rows(statistics, 1.5, 1);
+  EXPECT_EQ(read("statistics.csv"), "time_s,flux_m_s,differential_head_m\n0,5,\n1,6,\n1.5,,15\n");
+}
+
+TEST_F(StatisticsTest, DoesNotResumeWhatIsNoneOfItsFiles)
+{
+  write("statistics.csv", "name,flux_m_s\n0,0\n");
+  auto statistics = make();
+  EXPECT_NE(complaint<UserError>([&] { statistics.resume(1.); }).find("does not begin with the column 'time_s'"),
+            std::string::npos);
+  EXPECT_EQ(read("statistics.csv"), "name,flux_m_s\n0,0\n");
   Statistics missing(path("missing.csv"), MPI_COMM_SELF);
   missing.add_column("time_s");
   EXPECT_NE(complaint<UserError>([&] { missing.resume(1.); }).find("cannot read"), std::string::npos);

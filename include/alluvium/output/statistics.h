@@ -30,12 +30,14 @@ namespace alluvium::output
 
     /**
      * Continue the file of an interrupted run: keep its rows up to @p time, drop the later ones (and a torn last line).
-     * The header must be the same. To be called after all columns were added and before the first row.
+     * Columns that the file does not have come after its own and are empty in its rows; those that only the file has
+     * stay, empty from now on. To be called after all columns were added and before the first row.
      */
     void resume(double time);
 
   private:
     void        open(bool append);
+    std::size_t take_columns_of(const std::string &line);
     std::string header() const;
     std::string formatted(double value) const;
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -74,6 +75,9 @@ namespace alluvium::run
   private:
     template <typename Action>
     void read(const Action &action) const;
+
+    /** Of the interrupted run, by their whole names. */
+    std::map<std::string, std::string> parameters() const;
 
     std::string               folder;
     nlohmann::ordered_json    state;

@@ -20,6 +20,15 @@ namespace alluvium::run
   std::vector<ParameterChange> changed_parameters(const std::map<std::string, std::string>               &before,
                                                   const std::vector<std::pair<std::string, std::string>> &now);
 
+  /** Whether the walls of @p changes may be others, or move otherwise. */
+  bool change_walls(const std::vector<ParameterChange> &changes);
+
+  /**
+   * Whether @p changes change what holds between grains and walls. What was known to rest may rest no more then, with
+   * the same loads. (Loads are compared in any case: fluid and boundary conditions may be others.)
+   */
+  bool change_contacts(const std::vector<ParameterChange> &changes);
+
   /**
    * Describe @p changes, a line for each. Throws UserError with all those that would be ignored, since a checkpoint
    * holds what had been made of them: grains, unrefined mesh, columns of statistics.csv. @p never_refines: the mesh was

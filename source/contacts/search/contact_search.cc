@@ -1,4 +1,5 @@
 #include <alluvium/contacts/search/contact_search.h>
+#include <alluvium/utilities/digits.h>
 #include <alluvium/utilities/divergence.h>
 #include <alluvium/utilities/pair_sort.h>
 #include <alluvium/utilities/user_error.h>
@@ -118,10 +119,14 @@ namespace alluvium::contacts
 
   std::vector<double> WallGeometry::positions() const
   {
+    return moving ? positions_of(walls) : std::vector<double>();
+  }
+
+  std::vector<double> WallGeometry::positions_of(const std::vector<grains::WallSegment> &segments)
+  {
     std::vector<double> result;
-    if (moving)
-      for (const grains::WallSegment &w : walls)
-        result.insert(result.end(), {w.a[0], w.a[1], w.b[0], w.b[1], w.centre[0], w.centre[1], double(w.present)});
+    for (const grains::WallSegment &w : segments)
+      result.insert(result.end(), {w.a[0], w.a[1], w.b[0], w.b[1], w.centre[0], w.centre[1], double(w.present)});
     return result;
   }
 
@@ -175,7 +180,8 @@ namespace alluvium::contacts
   unsigned int WallGeometry::count_substeps(const double dt, const double smallest_diameter) const
   {
     // a wall that turns leaves the tangent on which contacts see it move
-    double n = 1.;
+    double      n = 1.;
+    std::string fastest;
     for (const grains::WallSegment &w : walls)
       {
         const double spin = w.motion ? w.motion->mean_velocity(time, dt)[2] : w.spin;
@@ -185,10 +191,15 @@ namespace alluvium::contacts
         for (const auto &end : {w.a, w.b})
           arm = std::max(arm, std::hypot(end[0] - w.centre[0], end[1] - w.centre[1]));
         const double most = std::min(0.1, std::sqrt(0.1 * smallest_diameter / arm)); // [rad]
-        n                 = std::max(n, std::ceil(std::abs(spin) * dt / most * (1. - 1e-10)));
+        if (const double wanted = std::ceil(std::abs(spin) * dt / most * (1. - 1e-10)); wanted > n)
+          {
+            n       = wanted;
+            fastest = "The wall '" + w.name + "' turns at " + in_digits(spin) + " rad/s";
+          }
       }
     if (n > 1e6)
-      throw Divergence("A wall turns so fast that one step would need more than a million contact sub-steps.");
+      throw Divergence(fastest + ": a step of " + in_digits(dt) +
+                       " s would need more than a million contact sub-steps.");
     return static_cast<unsigned int>(n);
   }
 

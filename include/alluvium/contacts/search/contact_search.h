@@ -63,6 +63,9 @@ namespace alluvium::contacts
     std::vector<double> positions() const;
     void                place(const std::vector<double> &positions);
 
+    /** The same of @p segments, whether they ever move or not. */
+    static std::vector<double> positions_of(const std::vector<grains::WallSegment> &segments);
+
     /** The largest speed of any wall that is present [m/s]. */
     double largest_speed() const;
 

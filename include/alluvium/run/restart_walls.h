@@ -1,0 +1,21 @@
+#pragma once
+
+#include <alluvium/contacts/search/contact_archive.h>
+#include <alluvium/grains/wall.h>
+
+#include <vector>
+
+namespace alluvium::run
+{
+  /**
+   * Make @p archive, of a run whose walls were @p before at t = 0, one of a run whose walls are @p now. A wall that
+   * both have in the same place at t = 0 stands where the first run has left it; another one stands where its motion
+   * has brought it from t = 0 to @p time [s], in steps of @p time_step [s]. Impulses of walls that are no more are
+   * dropped. Throws UserError if the archive is not of @p before.
+   */
+  void fit_to_walls(contacts::ContactArchive               &archive,
+                    const std::vector<grains::WallSegment> &before,
+                    const std::vector<grains::WallSegment> &now,
+                    double                                  time,
+                    double                                  time_step);
+} // namespace alluvium::run
