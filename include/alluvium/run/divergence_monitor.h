@@ -29,7 +29,8 @@ namespace alluvium::run
   /**
    * Looks at every step and tells whether it can be believed. Energy is judged as a sum over steps: what the kinetic
    * energy has gained beyond its sources, less what it has lost since. Physics makes that sum zero; discretisation
-   * leaves some percent of what flows through; where the flow runs away it becomes as large as the energy itself.
+   * leaves some percent of what flows through; where the flow runs away it becomes as large as the energy itself. That
+   * energy is not the momentary one: where grains fly, gravity holds it for the time of their flight.
    */
   class DivergenceMonitor
   {
@@ -57,6 +58,7 @@ namespace alluvium::run
 
   private:
     double noise(const Model &model) const;
+    double kinetic_of_late(const Model &model, const StepMeasures &measures);
     Sign   judge_energy(const Model &model, const StepMeasures &measures);
     Sign   judge_penetration(const Model &model) const;
 
@@ -65,6 +67,9 @@ namespace alluvium::run
     double unexplained            = 0.; // [J/m]
     double smallest_bound         = 0.; // of that, as there have been grains [J/m]
     double largest_share_of_bound = 0.;
+    double of_late                = 0.; // kinetic energy that gravity may have stored [J/m]
+    double flight                 = 0.; // for how long [s]
+    double longest_step           = 0.; // [s]
     bool   calm                   = true;
   };
 
