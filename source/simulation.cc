@@ -117,6 +117,8 @@ namespace alluvium
     output.choose_observers();
     if (writes && !restart)
       output.make_folder(false);
+    else if (!restart)
+      output.check_folder(false, true); // now that it is known what the deposit reads
     output.open();
   }
 

@@ -1,4 +1,5 @@
 #include <alluvium/contacts/contact_scales.h>
+#include <alluvium/utilities/digits.h>
 #include <alluvium/utilities/divergence.h>
 
 #include <algorithm>
@@ -36,12 +37,20 @@ namespace alluvium::contacts
                               const double               dt,
                               const double               largest_move)
   {
-    double speed = 0.;
+    double      speed   = 0.;
+    std::size_t fastest = 0;
+    const auto  see     = [&](const std::size_t k, const double square) {
+      if (square > speed)
+        {
+          speed   = square;
+          fastest = k;
+        }
+    };
     for (std::size_t k = 0; k < grains.n(); ++k)
       {
         const double m  = grains.mass[k] + loads.mass_added_to(k);
         double       vx = grains.vx[k], vy = grains.vy[k];
-        speed = std::max(speed, vx * vx + vy * vy);
+        see(k, vx * vx + vy * vy);
         if (!std::isinf(m))
           {
             vx               = m * vx + dt * (loads.fx[k] + grains.fcx[k]);
@@ -52,7 +61,7 @@ namespace alluvium::contacts
               {
                 vx /= m_e;
                 vy /= m_e;
-                speed = std::max(speed, vx * vx + vy * vy);
+                see(k, vx * vx + vy * vy);
               }
           }
         if (!std::isfinite(vx * vx + vy * vy + grains.x[k] + grains.y[k]))
@@ -61,8 +70,9 @@ namespace alluvium::contacts
       }
     const double n_substeps = std::ceil(dt * std::sqrt(speed) / largest_move * (1. - 1e-10));
     if (n_substeps > 1e6)
-      throw Divergence("A grain moves at " + std::to_string(std::sqrt(speed)) +
-                       " m/s: one step would need more than a million contact sub-steps.");
+      throw Divergence("Grain " + std::to_string(grains.id[fastest]) + " at (" + in_digits(grains.x[fastest]) + ", " +
+                       in_digits(grains.y[fastest]) + ") m moves at " + in_digits(std::sqrt(speed)) +
+                       " m/s: a step of " + in_digits(dt) + " s would need more than a million contact sub-steps.");
     return std::max(1., n_substeps);
   }
 } // namespace alluvium::contacts

@@ -1,6 +1,7 @@
 #include <alluvium/deposits/deposit_box.h>
 #include <alluvium/deposits/deposit_fit.h>
 #include <alluvium/deposits/deposit_room.h>
+#include <alluvium/utilities/digits.h>
 #include <alluvium/utilities/plugin.h>
 
 #include <cmath>
@@ -34,7 +35,7 @@ namespace alluvium::deposits
       const double a = spacing > 0. ? spacing : diameter * std::sqrt(M_PI / 4. / area_fraction);
       check_user(std::isfinite(a), "The deposit 'lattice' needs a positive 'Area fraction' or 'Spacing'.");
       check_user(a >= diameter * (1. - 1e-12),
-                 "The deposit 'lattice' has a spacing of " + std::to_string(a / diameter) +
+                 "The deposit 'lattice' has a spacing of " + in_digits(a / diameter) +
                    " diameters: the discs overlap.");
       const DepositBox box = parse_deposit_box(box_text, context);
 

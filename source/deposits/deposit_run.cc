@@ -2,6 +2,7 @@
 #include <alluvium/deposits/deposit.h>
 #include <alluvium/deposits/deposit_table.h>
 #include <alluvium/utilities/checked_file.h>
+#include <alluvium/utilities/input_files.h>
 #include <alluvium/utilities/plugin.h>
 #include <alluvium/utilities/user_error.h>
 
@@ -59,6 +60,7 @@ namespace alluvium::deposits
       grains::GrainArrays      grains;
       contacts::ContactArchive contacts;
       load_grains(MPI_COMM_SELF, folder + "/grains", grains, contacts);
+      note_input(folder);
       const bool        fluid_radius = mass_followed_fluid_radius(folder);
       std::vector<Seed> seeds;
       for (std::size_t i = 0; i < grains.n(); ++i)

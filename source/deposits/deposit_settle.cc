@@ -1,6 +1,7 @@
 #include <alluvium/contacts/contact_stepper.h>
 #include <alluvium/deposits/deposit_settle.h>
 #include <alluvium/grains/packing.h>
+#include <alluvium/utilities/digits.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <algorithm>
@@ -175,9 +176,8 @@ namespace alluvium::deposits
       }
     check_user(bed.is_still(),
                "The deposit 'settled bed' did not come to rest in " + std::to_string(bed.state.n_steps) +
-                 " steps: its grains still move at " + std::to_string(bed.state.speed) +
-                 " m/s, and floor and sides carry " + std::to_string(bed.state.support) +
-                 " of the weight. Try another seed, or other friction while settling.");
+                 " steps: its grains still move at " + in_digits(bed.state.speed) + " m/s, and floor and sides carry " +
+                 in_digits(bed.state.support) + " of the weight. Try another seed, or other friction while settling.");
     for (std::size_t k = 0; k < seeds.size(); ++k)
       {
         seeds[k].x = bed.grains.x[k];

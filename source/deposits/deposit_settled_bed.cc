@@ -5,6 +5,7 @@
 #include <alluvium/deposits/deposit_room.h>
 #include <alluvium/deposits/deposit_settle.h>
 #include <alluvium/deposits/deposit_table.h>
+#include <alluvium/utilities/digits.h>
 #include <alluvium/utilities/plugin.h>
 #include <alluvium/utilities/random_numbers.h>
 
@@ -122,8 +123,8 @@ namespace alluvium::deposits
         check_area(what, n, area, box);
       else
         check_user(height <= box.height() + 2. * d_min * ratio,
-                   "The deposit '" + std::string(what) + "' is to be " + std::to_string(height) +
-                     " m high, its box is only " + std::to_string(box.height()) + " m.");
+                   "The deposit '" + std::string(what) + "' is to be " + in_digits(height) +
+                     " m high, its box is only " + in_digits(box.height()) + " m.");
     }
 
     /** Grains of a dense bed of @p height. */
@@ -178,8 +179,8 @@ namespace alluvium::deposits
       for (const Seed &s : seeds)
         top = std::max(top, s.y + s.radius);
       check_user(top <= box.upper[1],
-                 "The deposit 'settled bed' is " + std::to_string(top - box.lower[1]) + " m high, its box only " +
-                   std::to_string(box.upper[1] - box.lower[1]) + " m.");
+                 "The deposit 'settled bed' is " + in_digits(top - box.lower[1]) + " m high, its box only " +
+                   in_digits(box.upper[1] - box.lower[1]) + " m.");
       return seeds;
     }
 
@@ -211,8 +212,8 @@ namespace alluvium::deposits
           // Rolled discs lie nearly as dense as they will: a tenth of the height is more than settling gains.
           check_user(looseness > 0. || n == 0 || p[1] < box.lower[1] + 1.15 * box.height() + 4. * d_min * ratio,
                      "The deposit 'settled bed' cannot fit: " + std::to_string(seeds.size()) + " of its " +
-                       std::to_string(n) + " grains fill its box of " + std::to_string(box.width()) + " m x " +
-                       std::to_string(box.height()) + " m.");
+                       std::to_string(n) + " grains fill its box of " + in_digits(box.width()) + " m x " +
+                       in_digits(box.height()) + " m.");
         }
       return seeds;
     }
@@ -299,8 +300,8 @@ namespace alluvium::deposits
       double       low = 0.03, high = 1.;
       const double densest = packing_at(low), loosest = packing_at(high);
       check_user(packing <= densest && packing >= loosest,
-                 "The deposit 'settled bed' cannot have the packing fraction " + std::to_string(packing) +
-                   ": friction gives it " + std::to_string(loosest) + " to " + std::to_string(densest) + ".");
+                 "The deposit 'settled bed' cannot have the packing fraction " + in_digits(packing) +
+                   ": friction gives it " + in_digits(loosest) + " to " + in_digits(densest) + ".");
       for (unsigned int k = 0; k < 6 && best_off > 2e-3; ++k)
         {
           const double mu                         = std::sqrt(low * high);

@@ -1,4 +1,5 @@
 #include <alluvium/fluid/driving.h>
+#include <alluvium/utilities/digits.h>
 #include <alluvium/utilities/expression.h>
 #include <alluvium/utilities/user_error.h>
 
@@ -79,7 +80,7 @@ namespace alluvium::fluid
           std::isfinite(force[d]) && std::isfinite(gradient[d]),
           std::string("Fluid/") +
             (std::isfinite(force[d]) ? "Mean pressure gradient: '" + gradient_text : "Body force: '" + force_text) +
-            "' is not finite at t = " + std::to_string(time) + " s.");
+            "' is not finite at t = " + in_digits(time) + " s.");
       }
   }
 

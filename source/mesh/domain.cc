@@ -3,6 +3,8 @@
 #include <alluvium/mesh/domain.h>
 #include <alluvium/mesh/gmsh_file.h>
 #include <alluvium/mesh/straight_sides.h>
+#include <alluvium/utilities/digits.h>
+#include <alluvium/utilities/input_files.h>
 #include <alluvium/utilities/text_file.h>
 #include <alluvium/utilities/user_error.h>
 
@@ -190,8 +192,8 @@ namespace alluvium::mesh
           check_user(std::isfinite(lower_corner[d]) && std::isfinite(upper_corner[d]) &&
                        lower_corner[d] < upper_corner[d],
                      "Domain: the upper right corner must be above and to the right of the lower left one; in " +
-                       std::string(d == 0 ? "x" : "y") + " they are at " + std::to_string(lower_corner[d]) + " and " +
-                       std::to_string(upper_corner[d]) + " m.");
+                       std::string(d == 0 ? "x" : "y") + " they are at " + in_digits(lower_corner[d]) + " and " +
+                       in_digits(upper_corner[d]) + " m.");
         ids             = {{"left", 0}, {"right", 1}, {"bottom", 2}, {"top", 3}}; // deal.II's colours of a rectangle
         const double x0 = lower_corner[0], y0 = lower_corner[1], x1 = upper_corner[0], y1 = upper_corner[1];
         wall_segments = {{{{x0, y1}}, {{x0, y0}}, {{0., 0.}}, "left"},
@@ -322,6 +324,7 @@ namespace alluvium::mesh
         else if (!(buffer << file.rdbuf()))
           content[1] = "is empty.";
         content[0] = buffer.str();
+        note_input(mesh_path);
       }
     content = Utilities::MPI::broadcast(communicator, content);
     check_user(content[1].empty(), "Domain/Mesh file: '" + mesh_path + "' " + content[1]);
@@ -391,8 +394,8 @@ namespace alluvium::mesh
         const double length = upper_corner[d] - lower_corner[d];
         const double cells  = std::max(1., std::ceil(length / cell_size * (1. - 1e-10)));
         check_user(cells < 1e5,
-                   "Domain: cells of " + std::to_string(cell_size) + " m are too small for a domain of " +
-                     std::to_string(length) + " m.");
+                   "Domain: cells of " + in_digits(cell_size) + " m are too small for a domain of " +
+                     in_digits(length) + " m.");
         side = std::min(side, length / cells);
       }
     for (unsigned int d = 0; d < dim; ++d)

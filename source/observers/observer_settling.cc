@@ -35,7 +35,7 @@ namespace alluvium::observers
                      in_digits(s.bottom) + " to " + in_digits(s.top) + " m.");
         check_user(top > bottom,
                    "Output/Observers: settling: 'Bottom' and 'Top' must be the ends of a range of heights [m]: " +
-                     std::to_string(bottom) + " and " + std::to_string(top) + " are not.");
+                     in_digits(bottom) + " and " + in_digits(top) + " are not.");
         return s.fluid && std::hypot(s.gravity[0], s.gravity[1]) > 0.;
       }
 

@@ -1,6 +1,7 @@
 #include <alluvium/output/output_folder.h>
 #include <alluvium/utilities/first_rank.h>
 #include <alluvium/utilities/folder_lock.h>
+#include <alluvium/utilities/input_files.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/mpi.h>
@@ -45,10 +46,22 @@ namespace alluvium::output
         return true;
       if (!entry.is_regular_file())
         return false;
-      for (const std::string ours : {".vtu", ".pvtu", ".pvd", ".vtp", ".csv", ".h5", ".xdmf"})
+      for (const std::string ours : {".vtu", ".pvtu", ".pvd", ".vtp", ".h5", ".xdmf"})
         if (extension == ours)
           return true;
-      return name == "summary.json" || name == "parameters.prm" || name == "log.txt";
+      return name == "statistics.csv" || name == "summary.json" || name == "parameters.prm" || name == "log.txt";
+    }
+
+    /** What this run has read in @p folder and would replace, whatever way its path was written; or empty. */
+    std::string input_in(const fs::path &folder)
+    {
+      std::error_code ignored;
+      for (const auto &entry : fs::directory_iterator(folder))
+        if (is_of_a_run(entry))
+          for (const std::string &input : noted_inputs())
+            if (fs::equivalent(entry.path(), input, ignored))
+              return entry.path().filename().string();
+      return "";
     }
   } // namespace
 
@@ -131,6 +144,13 @@ namespace alluvium::output
     check_writable(folder, "the " + quoted() + " cannot be written to: ");
     const std::string holder = lock ? "" : FolderLock::holder_of(folder);
     check_user(holder.empty(), in_use(holder));
+    if (!is_restart && (may_overwrite || !holds_a_run(folder)))
+      {
+        const std::string input = input_in(folder);
+        check_user(input.empty(),
+                   "the " + quoted() + " holds '" + input +
+                     "', which this run reads and would replace: name another output folder.");
+      }
     return true;
   }
 

@@ -1,4 +1,5 @@
 #include <alluvium/refinement/refinement_criterion.h>
+#include <alluvium/utilities/digits.h>
 #include <alluvium/utilities/expression.h>
 #include <alluvium/utilities/plugin.h>
 
@@ -44,9 +45,9 @@ namespace alluvium::refinement
                                            box.lower[1] + b * (box.upper[1] - box.lower[1]));
               const double           size = function->value(point);
               if (!(size > 0.)) // the message is dear, and this is asked for every cell
-                throw UserError("Mesh refinement/Criteria: function/Cell size: '" + text + "' is " +
-                                std::to_string(size) + " at x = " + std::to_string(point[0]) +
-                                ", y = " + std::to_string(point[1]) + "; sizes must be positive.");
+                throw UserError("Mesh refinement/Criteria: function/Cell size: '" + text + "' is " + in_digits(size) +
+                                " at x = " + in_digits(point[0]) + ", y = " + in_digits(point[1]) +
+                                "; sizes must be positive.");
               result = std::min(result, size * context.grain_diameter);
             }
         return result;

@@ -125,6 +125,8 @@ namespace alluvium::run
     const auto names = Utilities::split_string_list(head_between);
     check_user(names.empty() || names.size() == 2,
                "Output/Head between: expected the names of two boundaries, got '" + head_between + "'.");
+    check_user(names.empty() || names[0] != names[1],
+               "Output/Head between: a head is between two boundaries, but '" + head_between + "' is one.");
     std::string known;
     for (const auto &[name, id] : model.domain.boundary_ids())
       known += (known.empty() ? "'" : ", '") + name + "'";

@@ -3,6 +3,8 @@
 #include <alluvium/run/model.h>
 #include <alluvium/run/scene_size.h>
 #include <alluvium/run/set_up.h>
+#include <alluvium/utilities/divergence.h>
+#include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/grid/tria.h>
@@ -189,6 +191,15 @@ namespace alluvium::run
       set_up_fluid(m, from);
     m.store.initialize(m.grains, lower, upper, m.contacts.settings().skin * largest);
     if (m.grains_move && !from)
-      find_initial_contact_forces(m);
+      try
+        {
+          find_initial_contact_forces(m);
+        }
+      catch (const Divergence &error) // nothing has run yet: it is what was asked for
+        {
+          throw UserError(std::string("The scene cannot start: ") + error.what() +
+                          " Is it in SI units (metres, seconds)? Try a smaller Time/Time step, slower grains or slower "
+                          "walls.");
+        }
   }
 } // namespace alluvium::run

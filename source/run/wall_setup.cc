@@ -268,6 +268,10 @@ namespace alluvium::run
     const std::map<std::string, Motion>    motions = read_motions();
     for (const grains::WallSegment &wall : extra)
       {
+        check_user(domain.boundary_ids().count(wall.name) == 0,
+                   extra_name + ": '" + wall.name +
+                     "' is the name of a boundary of the domain; what is said of it would hold for both. Choose "
+                     "another one.");
         const auto m = motions.find(wall.name);
         check_user(reaches_into(domain, wall) || (m != motions.end() && m->second.motion.ever_acts()),
                    extra_name + ": '" + wall.name + "' from (" + in_digits(wall.a[0]) + ", " + in_digits(wall.a[1]) +

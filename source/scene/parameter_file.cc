@@ -1,4 +1,5 @@
 #include <alluvium/scene/parameter_file.h>
+#include <alluvium/utilities/input_files.h>
 #include <alluvium/utilities/nearest_name.h>
 #include <alluvium/utilities/text_file.h>
 #include <alluvium/utilities/user_error.h>
@@ -43,6 +44,7 @@ namespace alluvium::scene
         std::ifstream stream(file_name);
         check_user(stream.good(), where + "The " + quoted + " cannot be read: " + std::strerror(errno) + ".");
 
+        note_input(file_name);
         open_files.push_back(canonical);
         const std::size_t depth = sections.size();
         std::string       line, text;
@@ -169,6 +171,23 @@ namespace alluvium::scene
       return sections.empty() ? "outside of all sections" : "in section '" + to_string(sections) + "'";
     }
 
+    /** The name that stands twice in @p value, a list of names or of `name: value`, or empty. */
+    std::string name_twice(const std::string &pattern, const std::string &value)
+    {
+      const auto is = [&](const std::string &kind) { return pattern.compare(0, kind.size(), kind) == 0; };
+      if (!is("[Map of ") && !is("[MultipleSelection "))
+        return "";
+      std::vector<std::string> names;
+      for (const std::string &item : dealii::Utilities::split_string_list(value))
+        {
+          const std::string name = trim(item.substr(0, item.find(':')));
+          if (std::find(names.begin(), names.end(), name) != names.end())
+            return name;
+          names.push_back(name);
+        }
+      return "";
+    }
+
     std::string bad_value(const Statement &statement, const std::string &pattern)
     {
       std::string text = statement.origin + ": parameter '" + to_string(statement.path) + "' ";
@@ -248,6 +267,9 @@ namespace alluvium::scene
                              in_section(statement.path) + declared.suggest_parameter(statement.path));
         else if (!matches(parameter->pattern, statement.value))
           problems.push_back(bad_value(statement, parameter->pattern));
+        else if (const std::string twice = name_twice(parameter->pattern, statement.value); !twice.empty())
+          problems.push_back(statement.origin + ": parameter '" + to_string(statement.path) + "' has '" + twice +
+                             "' twice; it can be there once.");
       }
 
     if (!problems.empty())

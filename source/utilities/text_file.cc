@@ -1,3 +1,4 @@
+#include <alluvium/utilities/input_files.h>
 #include <alluvium/utilities/text_file.h>
 #include <alluvium/utilities/user_error.h>
 
@@ -59,6 +60,7 @@ namespace alluvium
     if (in.peek() != std::ifstream::traits_type::eof())
       all << in.rdbuf();
     check_user(!in.bad() && !all.fail(), "Cannot read the " + named + ".");
+    note_input(file);
     std::string text = all.str();
     strip_byte_order_mark(text, "The " + named);
     check_user(text.find('\0') == std::string::npos, "The " + named + " is no text: it holds zero bytes.");

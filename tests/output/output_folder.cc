@@ -1,4 +1,5 @@
 #include <alluvium/output/output_folder.h>
+#include <alluvium/utilities/input_files.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -82,4 +83,22 @@ TEST_F(OutputFolderTest, RestartsInPlace)
   write("old/statistics.csv", "precious");
   EXPECT_EQ(create("old", true, true), "");
   EXPECT_EQ(read("old/statistics.csv"), "precious");
+}
+
+TEST_F(OutputFolderTest, DoesNotReplaceWhatTheRunReads)
+{
+  std::filesystem::create_directory(path("old"));
+  write("old/parameters.prm", "precious");
+  write("old/mine.csv", "precious, too");
+  std::filesystem::create_directory_symlink(path("old"), path("link"));
+  alluvium::note_input(path("link/../link/parameters.prm"));
+  alluvium::note_input(path("old/mine.csv"));
+  EXPECT_TRUE(contains(create("old", true), "holds 'parameters.prm', which this run reads"));
+  EXPECT_TRUE(contains(create("link", true), "holds 'parameters.prm', which this run reads"));
+  EXPECT_EQ(read("old/parameters.prm"), "precious");
+  EXPECT_EQ(create("old", false, true), ""); // a restart goes on with what is there
+  std::filesystem::remove(path("old/parameters.prm"));
+  write("old/statistics.csv", "");
+  EXPECT_EQ(create("old", true), "");
+  EXPECT_EQ(read("old/mine.csv"), "precious, too");
 }

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include <unistd.h>
 
@@ -39,6 +40,8 @@ namespace
       prm.add_parameter("Ratio a/b", ratio, "A name with a slash.");
       prm.add_parameter("Gravity", gravity, "Two numbers [m/s^2].");
       prm.add_parameter("Rolls", rolls, "Or slides.");
+      prm.add_parameter("Friction of walls", friction, "As `name: value, ...` [-].");
+      prm.add_parameter("Observers", observers, "Some.", dealii::Patterns::MultipleSelection("bed|flux|head"));
       prm.leave_subsection();
     }
 
@@ -83,7 +86,10 @@ namespace
     std::string              drag_law   = "disc";
     std::vector<double>      gravity    = {0., -9.81};
     bool                     rolls      = true;
-    std::filesystem::path    folder;
+
+    std::map<std::string, double> friction;
+    std::string                   observers = "bed, flux";
+    std::filesystem::path         folder;
   };
 } // namespace
 
@@ -198,6 +204,17 @@ TEST_F(ParameterFile, BadValues)
                   "e\nset Title = gr\xFC\xDF" // of Latin 1
                   "e\n"),
             "scene.prm:2: the value of 'Title' has characters that are not UTF-8; save the file as UTF-8.");
+}
+
+TEST_F(ParameterFile, ANameStandsOnceInAList)
+{
+  const std::string twice = R"(scene.prm:2: parameter 'Grains/Friction of walls' has 'bottom' twice)";
+  for (const std::string value : {"bottom: 0, bottom: 0.9", "bottom: 0.9, top: 1, bottom : 0.9"})
+    EXPECT_NE(error("subsection Grains\nset Friction of walls = " + value + "\nend\n").find(twice), std::string::npos)
+      << value;
+  EXPECT_NE(error("subsection Grains\nset Observers = bed, head, bed\nend\n").find("'bed' twice"), std::string::npos);
+  read("subsection Grains\nset Friction of walls = bottom: 0, top: 0\nset Observers = head, bed\nend\n");
+  EXPECT_EQ(friction.size(), 2u);
 }
 
 TEST_F(ParameterFile, ListsAllMistakesAndSetsNothing)

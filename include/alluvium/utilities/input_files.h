@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace alluvium
+{
+  /** Remember that this process has read @p path: what it writes must not take its place. */
+  void note_input(const std::string &path);
+
+  /** What note_input() was told, in that order, each once. */
+  const std::vector<std::string> &noted_inputs();
+} // namespace alluvium
