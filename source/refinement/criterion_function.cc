@@ -21,7 +21,7 @@ namespace alluvium::refinement
           "Cell size",
           text,
           "Size of the cells in mean grain diameters (h/d), a formula in x and y [m] and t [s], in which d is "
-          "the mean grain diameter [m] and pi is known: for example `if(abs(x - 0.1 - 0.02*t) < 5*d, 1, "
+          "the mean grain diameter at t = 0 [m] and pi is known: for example `if(abs(x - 0.1 - 0.02*t) < 5*d, 1, "
           "8)`. It is looked at in nine points of a cell.",
           dealii::Patterns::Anything());
       }
@@ -31,7 +31,7 @@ namespace alluvium::refinement
         if (!function)
           function = parse_expressions("Mesh refinement/Criteria: function/Cell size",
                                        {text},
-                                       {{"d", context.grain_diameter}, {"pi", dealii::numbers::PI}});
+                                       {{"d", context.initial_diameter}, {"pi", dealii::numbers::PI}});
         function->set_time(context.time);
       }
 

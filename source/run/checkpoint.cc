@@ -86,6 +86,7 @@ namespace alluvium::run
     state["never refines"] = m.never_refines;
     for (const auto &[side, d] : m.leavers.by_side)
       state["grains that left"][side] = {d.n, d.mass, d.momentum[0], d.momentum[1]};
+    state["initial diameter"] = m.initial_diameter;
     for (const auto &c : m.initial_bed.columns)
       state["initial bed"].push_back({c.left, c.right, c.bottom, c.top});
     for (const auto &[name, value] : m.parameters)
@@ -188,13 +189,14 @@ namespace alluvium::run
       }
     m.contacts.set_archive(archive);
     read([&] {
-      m.time            = state.at("time");
-      m.n_steps         = state.at("steps");
-      const auto &clock = state.at("clock");
-      m.clock           = {clock.at(0).get<double>(), clock.at(1).get<unsigned int>(), clock.at(2).get<double>()};
-      m.counts          = state.at("counts").get<decltype(m.counts)>();
-      m.coarse_size     = state.at("coarse size");
-      m.never_refines   = state.at("never refines");
+      m.time             = state.at("time");
+      m.n_steps          = state.at("steps");
+      const auto &clock  = state.at("clock");
+      m.clock            = {clock.at(0).get<double>(), clock.at(1).get<unsigned int>(), clock.at(2).get<double>()};
+      m.counts           = state.at("counts").get<decltype(m.counts)>();
+      m.coarse_size      = state.at("coarse size");
+      m.never_refines    = state.at("never refines");
+      m.initial_diameter = state.value("initial diameter", grains::mean_diameter(m.grains)); // older ones have none
       m.initial_bed.columns.clear();
       if (state.contains("initial bed"))
         for (const auto &c : state.at("initial bed"))

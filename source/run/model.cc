@@ -73,9 +73,10 @@ namespace alluvium::run
     const auto length  = domain.periodicity().length;
     auto       context = refinement::make_refinement_context(
       grains, {{{domain.lower()[0], domain.lower()[1]}}, {{domain.upper()[0], domain.upper()[1]}}}, upright());
-    context.periodic = {{length[0] > 0., length[1] > 0.}};
-    context.time     = time;
-    context.gravity  = gravity_size();
+    context.periodic         = {{length[0] > 0., length[1] > 0.}};
+    context.initial_diameter = initial_diameter;
+    context.time             = time;
+    context.gravity          = gravity_size();
     return context;
   }
 } // namespace alluvium::run

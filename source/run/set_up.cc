@@ -41,7 +41,7 @@ namespace alluvium::run
               {"g", m.gravity_size()},
               {"H", m.domain.upper()[up] - m.domain.lower()[up]},
               {"L", m.initial_bed.empty() ? 0. : m.initial_bed.top() - m.initial_bed.bottom()},
-              {"d", grains::mean_diameter(m.grains)},
+              {"d", m.initial_diameter},
               {"pi", numbers::PI}};
     }
 
@@ -172,12 +172,13 @@ namespace alluvium::run
       }
     else
       {
-        m.clock.dt    = m.time_step;
-        m.grains      = m.grain_setup.make(m.communicator, m.domain, walls, m.gravity, directory);
-        m.initial_bed = grains::find_bed_faces(m.grains, lower[across], upper[across], m.upright());
-        m.coarse_size = m.domain.coarse_cell_size() > 0. || !m.has_fluid
-                          ? m.domain.coarse_cell_size()
-                          : m.adaptivity.coarse_size(m.refinement_context());
+        m.clock.dt         = m.time_step;
+        m.grains           = m.grain_setup.make(m.communicator, m.domain, walls, m.gravity, directory);
+        m.initial_diameter = grains::mean_diameter(m.grains);
+        m.initial_bed      = grains::find_bed_faces(m.grains, lower[across], upper[across], m.upright());
+        m.coarse_size      = m.domain.coarse_cell_size() > 0. || !m.has_fluid
+                               ? m.domain.coarse_cell_size()
+                               : m.adaptivity.coarse_size(m.refinement_context());
         m.touched.assign(m.grains.n(), 0);
         check_scene_size(m);
       }

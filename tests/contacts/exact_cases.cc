@@ -354,7 +354,9 @@ TEST(ExactCases, BoulderOnTwoGrains)
             EXPECT_NEAR(carried / weight, 1., 0.03) << "ratio " << ratio << ", dt " << dt << ", step " << step;
           }
         if (ratio <= 300.)
-          EXPECT_EQ(n_unconverged, 0u) << "ratio " << ratio << ", dt " << dt;
+          {
+            EXPECT_EQ(n_unconverged, 0u) << "ratio " << ratio << ", dt " << dt;
+          }
         for (std::size_t k = 0; k < 3; ++k)
           EXPECT_NEAR(scene.grains.y[k], y[k], 0.02 * small) << "ratio " << ratio << ", dt " << dt;
       }

@@ -9,7 +9,7 @@ subsection Domain
   set Open to grains = bottom
 end
 subsection Boundary conditions
-  set Pressure = top: 0; bottom: rho*g*H
+  set Pressure = top: 0; bottom: rho*g*H + 1000*d
 end
 subsection Grains
   set Fluid packing fraction = 0

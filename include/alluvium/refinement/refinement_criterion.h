@@ -25,7 +25,8 @@ namespace alluvium::refinement
   /** What a criterion may know of the present state. The same on all ranks, but for the parts of the fluid's fields. */
   struct RefinementContext
   {
-    double                     grain_diameter = 0.; // mean [m]; 0 without grains
+    double                     grain_diameter   = 0.; // mean [m]; 0 without grains
+    double                     initial_diameter = 0.; // the same at t = 0 [m]
     grains::BedFaces           bed;
     mesh::Box                  domain;
     std::array<bool, 2>        periodic{};
@@ -42,10 +43,10 @@ namespace alluvium::refinement
     const unsigned int across = 1 - upright.vertical;
 
     RefinementContext context;
-    context.grain_diameter = mean_diameter(grains);
-    context.bed            = find_bed_faces(grains, domain.lower[across], domain.upper[across], upright);
-    context.domain         = domain;
-    context.grains         = &grains;
+    context.grain_diameter = context.initial_diameter = mean_diameter(grains);
+    context.bed    = find_bed_faces(grains, domain.lower[across], domain.upper[across], upright);
+    context.domain = domain;
+    context.grains = &grains;
     return context;
   }
 

@@ -88,8 +88,9 @@ namespace alluvium::run
     contacts::ContactReport       contact_report;
     grains::Leavers               leavers;
     grains::BedFaces              initial_bed;
-    double                        time    = 0.; // [s]
-    unsigned int                  n_steps = 0;
+    double                        initial_diameter = 0.; // mean of the grains at t = 0, `d` in formulas [m]
+    double                        time             = 0.; // [s]
+    unsigned int                  n_steps          = 0;
     Clock                         clock;
     double                        coarse_size   = 0.;    // cells of the unrefined mesh [m]
     bool                          never_refines = false; // the mesh stays as it was made
