@@ -17,6 +17,8 @@ namespace alluvium::coupling
     class Explicit : public TimeScheme
     {
     public:
+      bool keeps_grain_velocity() const override { return true; }
+
       void exchange_terms(const CouplingState &state,
                           const unsigned int,
                           std::vector<fluid::PieceExchange<2>> &exchange) const override
@@ -35,6 +37,8 @@ namespace alluvium::coupling
     class ImplicitDrag : public TimeScheme
     {
     public:
+      bool keeps_grain_velocity() const override { return true; }
+
       void exchange_terms(const CouplingState &state,
                           const unsigned int,
                           std::vector<fluid::PieceExchange<2>> &exchange) const override

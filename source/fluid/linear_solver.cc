@@ -12,7 +12,6 @@
 #include <Epetra_Vector.h>
 
 #include <numeric>
-#include <sstream>
 
 namespace alluvium::fluid
 {

@@ -5,7 +5,6 @@
 
 #include <deal.II/base/numbers.h>
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -13,13 +12,7 @@ namespace alluvium::run
 {
   void check_time_step(Model &m, const double end_time)
   {
-    const auto scheme = std::find_if(m.parameters.begin(), m.parameters.end(), [](const auto &parameter) {
-      return parameter.first == "Coupling/Time scheme";
-    });
-    // those that keep the grains' velocity while the fluid is solved
-    const bool has_limit =
-      scheme != m.parameters.end() && (scheme->second == "explicit" || scheme->second == "implicit drag");
-    if (!m.has_fluid || !m.grains_move || !has_limit)
+    if (!m.has_fluid || !m.grains_move || !m.coupling.keeps_grain_velocity())
       return;
     double mass = 0., volume = 0.;
     for (std::size_t i = 0; i < m.grains.n(); ++i)
@@ -40,7 +33,7 @@ namespace alluvium::run
       return;
     std::ostringstream text;
     text.precision(2);
-    text << "Coupling/Time scheme = " << scheme->second << ": grains of void fraction " << eps;
+    text << "Coupling/Time scheme = " << m.coupling.scheme_name() << ": grains of void fraction " << eps;
     if (r >= 1.)
       text << " and " << mass / volume / m.solver.properties.density
            << " times the fluid's density are unstable with it at any time step";

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <iostream>
 #include <iterator>
-#include <sstream>
 
 namespace alluvium::run
 {

@@ -102,6 +102,8 @@ namespace alluvium::coupling
                    double                                share);
 
     TimeScheme::Repetition repetition() const { return scheme_choice.get().repetition(); }
+    const std::string     &scheme_name() const { return scheme_choice.name(); }
+    bool                   keeps_grain_velocity() const { return scheme_choice.get().keeps_grain_velocity(); }
 
     /**
      * Solve the latest step's fluid again with what the grains made of its loads, @p answer, and what the fluid was

@@ -104,6 +104,10 @@ namespace alluvium::coupling
     /** Whether the grains' acceleration that the fluid sees is the one they take: added mass needs that. */
     virtual bool predicts_acceleration() const { return false; }
 
+    /** Whether the fluid is solved with the grains' velocity of t^n: stable only at time steps below their relaxation.
+     */
+    virtual bool keeps_grain_velocity() const { return false; }
+
     /** Solves of the fluid a step; from the second on only the known terms change, the matrix stays. */
     virtual unsigned int n_sweeps() const { return 1; }
 
