@@ -20,7 +20,7 @@ namespace alluvium::run
     const std::string smaller_step = "Try a smaller Time/Time step";
     const std::string more_room    = "Something presses grains into a place that is too small for them, or they are "
                                      "too fast for the time step. " +
-                                  smaller_step + ", slower walls, or more room.";
+                                  smaller_step + ", tighter tolerances in Contacts, slower walls, or more room.";
 
     /** Number of grain @p id in the arrays: some may have left. */
     std::size_t number_of(const Model &m, const grains::GrainId id)
