@@ -259,8 +259,7 @@ namespace alluvium
         guard.judge_contacts(); // before grains are put where they cannot be
         const auto timer = m.timers.scope("contacts");
         m.touched        = m.contacts.touched();
-        m.store.scatter(m.grains);
-        m.grains = m.store.gather();
+        m.store.check_positions();
         run::count_leavers(m);
       }
     m.time = m.clock.at(++m.n_steps);

@@ -83,7 +83,8 @@ namespace alluvium::contacts
       const double           nx = all.nx[m], ny = all.ny[m], free_vn = all.vn[m];
       double                 start_vn = 0.;
       if (material.restitution > 0. || materials.law)
-        start_vn = (grains.vx[p.j] - grains.vx[p.i]) * nx + (grains.vy[p.j] - grains.vy[p.i]) * ny;
+        start_vn = (grains.velocity[0][p.j] - grains.velocity[0][p.i]) * nx +
+                   (grains.velocity[1][p.j] - grains.velocity[1][p.i]) * ny;
       Contact &c = add(p, k, gap);
       c.nx       = nx;
       c.ny       = ny;
@@ -93,7 +94,8 @@ namespace alluvium::contacts
         c.bias_n = margins.bounce(all.bias[m], gap, start_vn, free_vn, material.restitution);
       else
         {
-          const double vt = (grains.vy[p.j] - grains.vy[p.i]) * nx - (grains.vx[p.j] - grains.vx[p.i]) * ny;
+          const double vt = (grains.velocity[1][p.j] - grains.velocity[1][p.i]) * nx -
+                            (grains.velocity[0][p.j] - grains.velocity[0][p.i]) * ny;
           add_state(material, {gap, start_vn, free_vn, std::abs(vt - (spin(p.i) + spin(p.j)))});
         }
       if (materials.rolls)
@@ -107,7 +109,8 @@ namespace alluvium::contacts
       ContactPair &p = candidates.walls[k];
       const Disc  &v = free[p.i];
       ContactPoint point;
-      if (v.inverse_mass == 0. || !geometry.walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point))
+      if (v.inverse_mass == 0. ||
+          !geometry.walls.touch(p.j, grains.position[0][p.i], grains.position[1][p.i], grains.radius[p.i], point))
         {
           wall_takes_part[k] = 0;
           p.rn = p.rt = p.rr = 0.;
@@ -121,7 +124,7 @@ namespace alluvium::contacts
         }
       wall_takes_part[k]        = 1;
       const ContactMaterial &m  = materials.walls[p.j];
-      const double           vx = point.vx - grains.vx[p.i], vy = point.vy - grains.vy[p.i];
+      const double           vx = point.vx - grains.velocity[0][p.i], vy = point.vy - grains.velocity[1][p.i];
       const double           start_vn = vx * point.nx + vy * point.ny;
       Contact               &c        = add(p, candidates.discs.size() + k, point.gap);
       c.nx                            = point.nx;
@@ -211,7 +214,8 @@ namespace alluvium::contacts
         {
           const ContactPair &p  = candidates.discs[k];
           const Disc        &vi = velocity[p.i], &vj = velocity[p.j];
-          double             dx = grains.x[p.j] - grains.x[p.i], dy = grains.y[p.j] - grains.y[p.i];
+          double             dx = grains.position[0][p.j] - grains.position[0][p.i],
+                 dy             = grains.position[1][p.j] - grains.position[1][p.i];
           geometry.periodicity.shorten(dx, dy);
           const double distance = std::sqrt(dx * dx + dy * dy);
           const double gap      = distance - (grains.radius[p.i] + grains.radius[p.j]);
@@ -229,7 +233,7 @@ namespace alluvium::contacts
           const Disc        &v = velocity[p.i];
           ContactPoint       point;
           if (bodies.free[p.i].inverse_mass > 0. &&
-              geometry.walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point) &&
+              geometry.walls.touch(p.j, grains.position[0][p.i], grains.position[1][p.i], grains.radius[p.i], point) &&
               point.gap + h * ((point.vx - v.x) * point.nx + (point.vy - v.y) * point.ny) < 0.)
             {
               wall_takes_part[k] = 1;
@@ -290,7 +294,8 @@ namespace alluvium::contacts
           {
             ContactPoint point;
             gaps[m] =
-              geometry.walls.touch(pair(k, candidates).j, grains.x[c.i], grains.y[c.i], grains.radius[c.i], point)
+              geometry.walls.touch(
+                pair(k, candidates).j, grains.position[0][c.i], grains.position[1][c.i], grains.radius[c.i], point)
                 ? point.gap
                 : 0.;
           }

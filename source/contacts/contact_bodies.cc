@@ -39,13 +39,13 @@ namespace alluvium::contacts
     for (std::size_t k = 0; k < n; ++k)
       {
         Disc &d = free[k];
-        d       = {grains.vx[k], grains.vy[k], grains.radius[k] * grains.omega[k]};
+        d       = {grains.velocity[0][k], grains.velocity[1][k], grains.radius[k] * grains.omega[k]};
         if (std::isinf(grains.mass[k]))
           continue;
         const double m = grains.mass[k] + loads.mass_added_to(k), m_e = m + h * loads.drag[k];
         const double inverse = 1. / m_e;
-        d.x                  = (m * d.x + h * loads.fx[k]) * inverse;
-        d.y                  = (m * d.y + h * loads.fy[k]) * inverse;
+        d.x                  = (m * d.x + h * loads.force[0][k]) * inverse;
+        d.y                  = (m * d.y + h * loads.force[1][k]) * inverse;
         d.inverse_mass       = inverse;
         d.inverse_rotation   = 0.;
         if (!rotation)
@@ -73,7 +73,9 @@ namespace alluvium::contacts
                              const std::size_t          n_all,
                              ContactCommunicator *const communicator)
   {
-    const auto square  = [&](const std::size_t k) { return grains.vx[k] * grains.vx[k] + grains.vy[k] * grains.vy[k]; };
+    const auto square = [&](const std::size_t k) {
+      return grains.velocity[0][k] * grains.velocity[0][k] + grains.velocity[1][k] * grains.velocity[1][k];
+    };
     const auto largest = largest_over_ranks(communicator, two_largest(n, square));
     // As sum_over_ranks(), which would look for the largest once more
     ReproducibleSum sum(n_all * largest[0]);

@@ -14,7 +14,7 @@ namespace alluvium::contacts
                     ContactPoint              &point)
     {
       if (wall)
-        return geometry.walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point);
+        return geometry.walls.touch(p.j, grains.position[0][p.i], grains.position[1][p.i], grains.radius[p.i], point);
       point = touch(grains, geometry.periodicity, p.i, p.j);
       return true;
     }

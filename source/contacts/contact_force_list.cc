@@ -18,7 +18,8 @@ namespace alluvium::contacts
       ContactPoint point;
       if (p.rn == 0. && !p.bonded)
         return;
-      if (wall && !geometry.walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point))
+      if (wall &&
+          !geometry.walls.touch(p.j, grains.position[0][p.i], grains.position[1][p.i], grains.radius[p.i], point))
         return;
       if (!wall)
         point = touch(grains, geometry.periodicity, p.i, p.j);

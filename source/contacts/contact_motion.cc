@@ -49,8 +49,8 @@ namespace alluvium::contacts
             if (wall.velocity[0] != 0. || wall.velocity[1] != 0. || wall.spin != 0.)
               {
                 const double r = grains.radius[c.i];
-                const auto   v = wall.velocity_at(grains.x[c.i] + r * c.nx, grains.y[c.i] + r * c.ny);
-                work           = -(ix * v[0] + iy * v[1]);
+                const auto v = wall.velocity_at(grains.position[0][c.i] + r * c.nx, grains.position[1][c.i] + r * c.ny);
+                work         = -(ix * v[0] + iy * v[1]);
               }
             from_contacts.push_back({w, {{ix, iy, work}}});
           }
@@ -60,25 +60,25 @@ namespace alluvium::contacts
     add_wall_impulses(work.communicator());
     for (std::size_t k = 0; k < work.n_owned(); ++k)
       {
-        const Impulse &p = on_grain[k];
-        grains.vx[k]     = bodies.free[k].x + bodies.free[k].inverse_mass * p.x;
-        grains.vy[k]     = bodies.free[k].y + bodies.free[k].inverse_mass * p.y;
+        const Impulse &p      = on_grain[k];
+        grains.velocity[0][k] = bodies.free[k].x + bodies.free[k].inverse_mass * p.x;
+        grains.velocity[1][k] = bodies.free[k].y + bodies.free[k].inverse_mass * p.y;
         if (rotation)
           // the first difference is the fluid's torque, and exactly zero without one
           grains.omega[k] +=
             (bodies.free[k].s - grains.radius[k] * grains.omega[k] + bodies.free[k].inverse_rotation * p.spin) /
             grains.radius[k];
-        grains.x[k] += h * grains.vx[k];
-        grains.y[k] += h * grains.vy[k];
-        grains.fcx[k] += p.x;
-        grains.fcy[k] += p.y;
+        grains.position[0][k] += h * grains.velocity[0][k];
+        grains.position[1][k] += h * grains.velocity[1][k];
+        grains.contact_force[0][k] += p.x;
+        grains.contact_force[1][k] += p.y;
       }
     wrap_into_box(grains, work.geometry.periodicity);
     work.update_ghosts();
     for (std::size_t k = 0; k < bonds.on_grain.size(); ++k)
       {
-        grains.fcx[k] += bonds.on_grain[k][0];
-        grains.fcy[k] += bonds.on_grain[k][1];
+        grains.contact_force[0][k] += bonds.on_grain[k][0];
+        grains.contact_force[1][k] += bonds.on_grain[k][1];
       }
     for (std::size_t k = 0; k < bonds.on_wall.size(); ++k)
       {

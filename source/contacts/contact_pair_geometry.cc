@@ -61,7 +61,7 @@ namespace alluvium::contacts
                             const grains::Periodicity &periodicity,
                             const Partner             &partner)
       {
-        const double *const x = g.x.data(), *const y = g.y.data(), *const r = g.radius.data();
+        const double *const x = g.position[0].data(), *const y = g.position[1].data(), *const r = g.radius.data();
         dx = collect<T>(item, [&](const Item &p) { return x[partner(p)]; }) -
              collect<T>(item, [&](const Item &p) { return x[p.i]; });
         dy = collect<T>(item, [&](const Item &p) { return y[partner(p)]; }) -

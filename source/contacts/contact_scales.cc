@@ -49,12 +49,12 @@ namespace alluvium::contacts
     for (std::size_t k = 0; k < grains.n(); ++k)
       {
         const double m  = grains.mass[k] + loads.mass_added_to(k);
-        double       vx = grains.vx[k], vy = grains.vy[k];
+        double       vx = grains.velocity[0][k], vy = grains.velocity[1][k];
         see(k, vx * vx + vy * vy);
         if (!std::isinf(m))
           {
-            vx               = m * vx + dt * (loads.fx[k] + grains.fcx[k]);
-            vy               = m * vy + dt * (loads.fy[k] + grains.fcy[k]);
+            vx               = m * vx + dt * (loads.force[0][k] + grains.contact_force[0][k]);
+            vy               = m * vy + dt * (loads.force[1][k] + grains.contact_force[1][k]);
             const double m_e = m + dt * loads.drag[k];
             // Most grains are not the fastest, which takes no division to see.
             if (!(vx * vx + vy * vy < 0.999 * speed * m_e * m_e))
@@ -64,15 +64,16 @@ namespace alluvium::contacts
                 see(k, vx * vx + vy * vy);
               }
           }
-        if (!std::isfinite(vx * vx + vy * vy + grains.x[k] + grains.y[k]))
+        if (!std::isfinite(vx * vx + vy * vy + grains.position[0][k] + grains.position[1][k]))
           throw Divergence("The position, the velocity or the load of grain " + std::to_string(grains.id[k]) +
                            " is not a finite number.");
       }
     const double n_substeps = std::ceil(dt * std::sqrt(speed) / largest_move * (1. - 1e-10));
     if (n_substeps > 1e6)
-      throw Divergence("Grain " + std::to_string(grains.id[fastest]) + " at (" + in_digits(grains.x[fastest]) + ", " +
-                       in_digits(grains.y[fastest]) + ") m moves at " + in_digits(std::sqrt(speed)) +
-                       " m/s: a step of " + in_digits(dt) + " s would need more than a million contact sub-steps.");
+      throw Divergence("Grain " + std::to_string(grains.id[fastest]) + " at (" +
+                       in_digits(grains.position[0][fastest]) + ", " + in_digits(grains.position[1][fastest]) +
+                       ") m moves at " + in_digits(std::sqrt(speed)) + " m/s: a step of " + in_digits(dt) +
+                       " s would need more than a million contact sub-steps.");
     return std::max(1., n_substeps);
   }
 } // namespace alluvium::contacts

@@ -122,10 +122,10 @@ namespace alluvium::contacts
     const std::size_t n     = grains.n();
     auto             &walls = work.geometry.walls;
     walls.set_time(time);
-    if (loads.fx.size() != n || loads.fy.size() != n || loads.drag.size() != n)
+    if (loads.force[0].size() != n || loads.force[1].size() != n || loads.drag.size() != n)
       throw std::logic_error("ContactStepper::advance: the loads have another size than the grains.");
-    Assert(grains.y.size() == n && grains.radius.size() == n && grains.mass.size() == n && grains.vx.size() == n &&
-             grains.vy.size() == n && grains.omega.size() == n,
+    Assert(grains.position[1].size() == n && grains.radius.size() == n && grains.mass.size() == n &&
+             grains.velocity[0].size() == n && grains.velocity[1].size() == n && grains.omega.size() == n,
            dealii::ExcMessage("Columns of the grains have different lengths."));
     Assert(std::is_sorted(grains.id.begin(), grains.id.end()),
            dealii::ExcMessage("The grains are sorted by their ids."));
@@ -166,8 +166,8 @@ namespace alluvium::contacts
     const unsigned int steps = std::max(count_substeps(grains, loads, dt, settings.max_move * scales.d_min),
                                         walls.count_substeps(dt, scales.d_min));
     // Until the end, contact forces are impulses, summed over the sub-steps.
-    grains.fcx.assign(n, 0.);
-    grains.fcy.assign(n, 0.);
+    grains.contact_force[0].assign(n, 0.);
+    grains.contact_force[1].assign(n, 0.);
     work.begin(grains, loads, shares(n));
     substep.begin({scales, std::move(materials), &solver(), cohesion, dt / steps, haste});
     for (unsigned int s = 0; s < steps; ++s)
@@ -177,8 +177,8 @@ namespace alluvium::contacts
 
     for (std::size_t k = 0; k < n; ++k)
       {
-        grains.fcx[k] /= dt;
-        grains.fcy[k] /= dt;
+        grains.contact_force[0][k] /= dt;
+        grains.contact_force[1][k] /= dt;
       }
     for (std::size_t k = 0; k < walls.segments().size(); ++k)
       {

@@ -153,7 +153,7 @@ namespace alluvium::contacts
     problem.n_discs = bodies.n_discs();
     problem.height.resize(step.scales.g > 0. ? bodies.n_discs() : 0);
     for (std::size_t k = 0; k < problem.height.size(); ++k)
-      problem.height[k] = -(grains.x[k] * step.scales.down[0] + grains.y[k] * step.scales.down[1]);
+      problem.height[k] = -(grains.position[0][k] * step.scales.down[0] + grains.position[1][k] * step.scales.down[1]);
   }
 
 
@@ -195,8 +195,11 @@ namespace alluvium::contacts
             tolerance.at_rest = true; // also in later rounds
             find_weights();
             const grains::GrainArrays &grains = work.grains();
-            solution                          = solve_cold(
-              problem, {grains.x, grains.y, grains.radius}, {step.scales.down, weight}, *step.solver, tolerance);
+            solution                          = solve_cold(problem,
+                                  {grains.position[0], grains.position[1], grains.radius},
+                                  {step.scales.down, weight},
+                                  *step.solver,
+                                  tolerance);
           }
         else
           solution = step.solver->solve(problem, tolerance);
@@ -264,14 +267,15 @@ namespace alluvium::contacts
         else
           {
             const grains::WallSegment &w = walls.segments()[pair.j];
-            const double               t = project(w, grains.x[c.i], grains.y[c.i]);
-            const double               x = w.a[0] + t * (w.b[0] - w.a[0]) - grains.x[c.i],
-                         y = w.a[1] + t * (w.b[1] - w.a[1]) - grains.y[c.i], distance = std::hypot(x, y);
+            const double               t = project(w, grains.position[0][c.i], grains.position[1][c.i]);
+            const double               x = w.a[0] + t * (w.b[0] - w.a[0]) - grains.position[0][c.i],
+                         y = w.a[1] + t * (w.b[1] - w.a[1]) - grains.position[1][c.i], distance = std::hypot(x, y);
             point = {x, y, distance - ri};
           }
         const bool passed = point.nx * c.nx + point.ny * c.ny < 0.;
         // what it touches at a joint may be another wall's
-        if (ContactPoint own; wall && !passed && !walls.touch(pair.j, grains.x[c.i], grains.y[c.i], ri, own))
+        if (ContactPoint own;
+            wall && !passed && !walls.touch(pair.j, grains.position[0][c.i], grains.position[1][c.i], ri, own))
           continue;
         const double gap   = passed ? -(point.gap + 2. * (ri + rj)) : point.gap;
         const double depth = -gap / (2. * (wall ? ri : std::min(ri, rj)));
@@ -310,7 +314,7 @@ namespace alluvium::contacts
     const std::array<double, 2> &down  = step.scales.down;
     weight.resize(bodies.n_discs());
     for (std::size_t k = 0; k < weight.size(); ++k)
-      weight[k] = margins.h * (loads.fx[k] * down[0] + loads.fy[k] * down[1]);
+      weight[k] = margins.h * (loads.force[0][k] * down[0] + loads.force[1][k] * down[1]);
   }
 
 

@@ -1,4 +1,5 @@
 #include <alluvium/contacts/grain_checkpoint.h>
+#include <alluvium/grains/grain_columns.h>
 #include <alluvium/utilities/checked_file.h>
 #include <alluvium/utilities/user_error.h>
 
@@ -6,18 +7,6 @@
 
 namespace alluvium::contacts
 {
-  namespace
-  {
-    /** All double arrays of the grains, in the order of the file. */
-    template <typename Grains>
-    auto arrays_of(Grains &g)
-    {
-      return std::array<decltype(&g.x), 12>{
-        {&g.x, &g.y, &g.radius, &g.fluid_radius, &g.mass, &g.vx, &g.vy, &g.omega, &g.fcx, &g.fcy, &g.x0, &g.y0}};
-    }
-  } // namespace
-
-
   void save_grains(const MPI_Comm             communicator,
                    const std::string         &file_name,
                    const grains::GrainArrays &grains,
@@ -25,8 +14,7 @@ namespace alluvium::contacts
   {
     ByteWriter writer;
     writer.put(grains.id);
-    for (const auto *values : arrays_of(grains))
-      writer.put(*values);
+    for_each_column(grains, [&](const auto &values, const grains::GrainColumn &) { writer.put(values); });
     writer.put(contacts.dt);
     writer.put<std::uint64_t>(contacts.entries.size());
     for (const auto &entry : contacts.entries)
@@ -55,11 +43,10 @@ namespace alluvium::contacts
         ByteReader reader(bytes);
         grains.id        = reader.get_vector<grains::GrainId>();
         bool same_length = true;
-        for (auto *values : arrays_of(grains))
-          {
-            *values     = reader.get_vector<double>();
-            same_length = same_length && values->size() == grains.id.size();
-          }
+        for_each_column(grains, [&](auto &values, const grains::GrainColumn &) {
+          values      = reader.get_vector<double>();
+          same_length = same_length && values.size() == grains.id.size();
+        });
         contacts.dt  = reader.get<double>();
         const auto n = reader.get<std::uint64_t>();
         contacts.entries.clear();

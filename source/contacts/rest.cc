@@ -29,9 +29,9 @@ namespace alluvium::contacts
       return false;
     for (std::size_t k = 0; k < grains.n(); ++k)
       {
-        double dx = grains.x[k] - x[k], dy = grains.y[k] - y[k];
+        double dx = grains.position[0][k] - x[k], dy = grains.position[1][k] - y[k];
         periodicity.shorten(dx, dy);
-        if (square(dx, dy) > move * move || square(loads.fx[k] - fx[k], loads.fy[k] - fy[k]) > load * load)
+        if (square(dx, dy) > move * move || square(loads.force[0][k] - fx[k], loads.force[1][k] - fy[k]) > load * load)
           return false;
       }
     return true;
@@ -44,7 +44,8 @@ namespace alluvium::contacts
       return false;
     const double speed = largest_move(scales) / scales.dt; // somebody else may have given them one
     for (std::size_t k = 0; k < grains.n(); ++k)
-      if (square(grains.vx[k], grains.vy[k]) + square(grains.radius[k] * grains.omega[k], 0.) > speed * speed)
+      if (square(grains.velocity[0][k], grains.velocity[1][k]) + square(grains.radius[k] * grains.omega[k], 0.) >
+          speed * speed)
         return false;
     return true;
   }
@@ -56,9 +57,9 @@ namespace alluvium::contacts
   {
     for (std::size_t k = 0; k < grains.n(); ++k)
       {
-        grains.vx[k] = grains.vy[k] = grains.omega[k] = 0.;
-        grains.fcx[k]                                 = -loads.fx[k];
-        grains.fcy[k]                                 = -loads.fy[k];
+        grains.velocity[0][k] = grains.velocity[1][k] = grains.omega[k] = 0.;
+        grains.contact_force[0][k]                                      = -loads.force[0][k];
+        grains.contact_force[1][k]                                      = -loads.force[1][k];
       }
     touched              = last_touched;
     ContactReport report = last_report;
@@ -83,7 +84,8 @@ namespace alluvium::contacts
     constexpr double largest_drag = 1e-2; // of a grain's weight
     for (std::size_t k = 0; k < grains.n(); ++k)
       if (!std::isinf(grains.mass[k]) &&
-          (!touched[k] || loads.drag[k] * std::hypot(grains.vx[k], grains.vy[k]) > largest_drag * scales.weight))
+          (!touched[k] ||
+           loads.drag[k] * std::hypot(grains.velocity[0][k], grains.velocity[1][k]) > largest_drag * scales.weight))
         {
           report.n_quiet = n_quiet = 0;
           return;
@@ -94,10 +96,10 @@ namespace alluvium::contacts
       {
         n_quiet = 1;
         id      = grains.id;
-        x       = grains.x;
-        y       = grains.y;
-        fx      = loads.fx;
-        fy      = loads.fy;
+        x       = grains.position[0];
+        y       = grains.position[1];
+        fx      = loads.force[0];
+        fy      = loads.force[1];
       }
     report.n_quiet = n_quiet;
     if (n_quiet >= steps)

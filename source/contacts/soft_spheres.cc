@@ -107,8 +107,8 @@ namespace alluvium::contacts
         const auto   f  = force(p,
                              point,
                              1. / inverse,
-                             grains.vx[p.j] - grains.vx[p.i],
-                             grains.vy[p.j] - grains.vy[p.i],
+                             grains.velocity[0][p.j] - grains.velocity[0][p.i],
+                             grains.velocity[1][p.j] - grains.velocity[1][p.i],
                              grains.radius[p.i] * grains.omega[p.i] + grains.radius[p.j] * grains.omega[p.j],
                              materials.grains);
         const double ft = tangential(f, point);
@@ -123,7 +123,8 @@ namespace alluvium::contacts
       {
         ContactPoint point;
         if (std::isinf(grains.mass[p.i]) ||
-            !geometry.walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point) || point.gap >= 0.)
+            !geometry.walls.touch(p.j, grains.position[0][p.i], grains.position[1][p.i], grains.radius[p.i], point) ||
+            point.gap >= 0.)
           {
             p.rn = p.rt = 0.;
             continue;
@@ -131,8 +132,8 @@ namespace alluvium::contacts
         const auto f = force(p,
                              point,
                              grains.mass[p.i],
-                             point.vx - grains.vx[p.i],
-                             point.vy - grains.vy[p.i],
+                             point.vx - grains.velocity[0][p.i],
+                             point.vy - grains.velocity[1][p.i],
                              grains.radius[p.i] * grains.omega[p.i],
                              materials.walls[p.j]);
         forces.fx[p.i] -= f[0];
@@ -178,8 +179,8 @@ namespace alluvium::contacts
           if (std::isinf(grains.mass[k]))
             continue;
           const double m = grains.mass[k] + loads.mass_added_to(k), m_e = m + 0.5 * h * loads.drag[k];
-          grains.vx[k] = (m * grains.vx[k] + 0.5 * h * (loads.fx[k] + forces.fx[k])) / m_e;
-          grains.vy[k] = (m * grains.vy[k] + 0.5 * h * (loads.fy[k] + forces.fy[k])) / m_e;
+          grains.velocity[0][k] = (m * grains.velocity[0][k] + 0.5 * h * (loads.force[0][k] + forces.fx[k])) / m_e;
+          grains.velocity[1][k] = (m * grains.velocity[1][k] + 0.5 * h * (loads.force[1][k] + forces.fy[k])) / m_e;
           if (!rotation)
             continue;
           const double inertia = grains::disc_inertia(grains.mass[k], grains.radius[k]);
@@ -204,9 +205,9 @@ namespace alluvium::contacts
         kick(before);
         for (std::size_t k = 0; k < n; ++k)
           {
-            grains.x[k] += h * grains.vx[k];
-            grains.y[k] += h * grains.vy[k];
-            if (!std::isfinite(grains.x[k] + grains.y[k]))
+            grains.position[0][k] += h * grains.velocity[0][k];
+            grains.position[1][k] += h * grains.velocity[1][k];
+            if (!std::isfinite(grains.position[0][k] + grains.position[1][k]))
               throw Divergence("Grain " + std::to_string(grains.id[k]) + " has no finite position any more.");
           }
         wrap_into_box(grains, geometry.periodicity);
@@ -221,10 +222,10 @@ namespace alluvium::contacts
     report.n_substeps = steps;
     for (std::size_t k = 0; k < n; ++k)
       {
-        grains.fcx[k]       = px[k] / dt;
-        grains.fcy[k]       = py[k] / dt;
-        touched[k]          = px[k] != 0. || py[k] != 0.;
-        report.max_velocity = std::max(report.max_velocity, std::hypot(grains.vx[k], grains.vy[k]));
+        grains.contact_force[0][k] = px[k] / dt;
+        grains.contact_force[1][k] = py[k] / dt;
+        touched[k]                 = px[k] != 0. || py[k] != 0.;
+        report.max_velocity = std::max(report.max_velocity, std::hypot(grains.velocity[0][k], grains.velocity[1][k]));
       }
     for (std::size_t k = 0; k < wall_impulse.size(); ++k)
       {
@@ -242,7 +243,8 @@ namespace alluvium::contacts
         count(touch(grains, geometry.periodicity, p.i, p.j).gap);
     for (const ContactPair &p : neighbours.pairs.walls)
       if (ContactPoint point;
-          p.rn != 0. && geometry.walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point))
+          p.rn != 0. &&
+          geometry.walls.touch(p.j, grains.position[0][p.i], grains.position[1][p.i], grains.radius[p.i], point))
         count(point.gap);
     if (report.n_contacts > 0)
       report.mean_penetration /= report.n_contacts;

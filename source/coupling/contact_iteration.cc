@@ -1,4 +1,5 @@
 #include <alluvium/coupling/contact_iteration.h>
+#include <alluvium/grains/grain_columns.h>
 #include <alluvium/utilities/anderson_mixing.h>
 
 #include <algorithm>
@@ -9,14 +10,28 @@ namespace alluvium::coupling
 {
   namespace
   {
-    /** From displacements: sub-steps, bounces and walls of a periodic box included, the drag that grains felt. */
-    GrainMotion mean_motion(const grains::GrainArrays &before, const grains::GrainArrays &after, const double dt)
+    /** Of all grains, since t = 0: sub-steps, bounces and walls of a periodic box included [m]. */
+    grains::Components displacements(const grains::GrainArrays &grains)
     {
-      GrainMotion motion{before.vx, before.vy, after.omega};
-      for (std::size_t g = 0; g < before.n(); ++g)
+      grains::Components result;
+      for (unsigned int d = 0; d < 2; ++d)
         {
-          motion.vx[g] = ((after.x[g] - after.x0[g]) - (before.x[g] - before.x0[g])) / dt;
-          motion.vy[g] = ((after.y[g] - after.y0[g]) - (before.y[g] - before.y0[g])) / dt;
+          result[d].resize(grains.n());
+          for (std::size_t g = 0; g < grains.n(); ++g)
+            result[d][g] = grains.position[d][g] - grains.initial_position[d][g];
+        }
+      return result;
+    }
+
+    /** Mean over a step of @p dt, from displacements before and after it: the motion whose drag grains felt. */
+    GrainMotion mean_motion(const grains::Components &before, const grains::GrainArrays &after, const double dt)
+    {
+      const grains::Components moved = displacements(after);
+      GrainMotion              motion{moved[0], moved[1], after.omega};
+      for (std::size_t g = 0; g < after.n(); ++g)
+        {
+          motion.vx[g] = (moved[0][g] - before[0][g]) / dt;
+          motion.vy[g] = (moved[1][g] - before[1][g]) / dt;
         }
       return motion;
     }
@@ -51,17 +66,18 @@ namespace alluvium::coupling
   } // namespace
 
 
-  ContactIteration::Answer ContactIteration::move(const grains::GrainArrays   &grains,
+  ContactIteration::Answer ContactIteration::move(grains::GrainArrays         &grains,
                                                   const grains::GrainLoads    &loads,
                                                   const double                 dt,
                                                   const std::array<double, 2> &gravity,
                                                   const double                 haste)
   {
-    const auto timer  = timers.scope("contacts");
-    Answer     answer = {grains, {}, {}, {}};
-    answer.report     = contacts.advance(answer.grains, loads, dt, gravity, haste);
-    answer.motion     = mean_motion(grains, answer.grains, dt);
-    answer.unseen     = coupling.unseen_force(answer.motion, loads);
+    const auto               timer  = timers.scope("contacts");
+    const grains::Components before = displacements(grains), velocity = grains.velocity;
+    Answer                   answer;
+    answer.report = contacts.advance(grains, loads, dt, gravity, haste);
+    answer.motion = mean_motion(before, grains, dt);
+    answer.unseen = coupling.unseen_force(velocity, answer.motion, loads);
     return answer;
   }
 
@@ -76,14 +92,14 @@ namespace alluvium::coupling
     const bool                   tries = limit.largest_number > 0;
     // the tolerance of 1e-2 bears contacts a hundred times looser, a tight one none
     const double             haste = tries ? std::clamp(1e4 * limit.tolerance, 1., 100.) : 1.;
-    contacts::ContactMemory  start;
+    Start                    start;
     AndersonMixing           mixing(depth);
     std::vector<GrainMotion> motions;
     GrainMotion              guess;
     double                   best      = std::numeric_limits<double>::max();
     unsigned int             n_stalled = 0;
     if (tries)
-      start = contacts.memory();
+      start = remember(grains);
     for (n = 0;; ++n)
       {
         Answer       answer    = move(grains, loads, dt, gravity, haste);
@@ -96,12 +112,11 @@ namespace alluvium::coupling
           {
             if (answer.report.hasty)
               {
-                contacts.restore(start);
+                go_back_to(start, grains);
                 answer = move(grains, loads, dt, gravity, 1.);
                 agree  = agrees(answer, tolerance); // hasty only if the step may be repeated
               }
             coupling.set_unseen_force(answer.unseen);
-            grains = std::move(answer.grains);
             return answer.report;
           }
         motions.push_back(std::move(answer.motion));
@@ -111,9 +126,27 @@ namespace alluvium::coupling
         const std::vector<double> weights = mixing.weights();
         mix(motions, weights, guess);
         const auto timer = timers.scope("fluid");
+        go_back_to(start, grains);
         coupling.repeat(guess, weights, loads);
-        contacts.restore(start);
       }
+  }
+
+
+  ContactIteration::Start ContactIteration::remember(const grains::GrainArrays &grains) const
+  {
+    Start start{contacts.memory(), {}};
+    for (const auto *column : columns_of(grains, grains::GrainColumn::When::changing))
+      start.columns.push_back(*column);
+    return start;
+  }
+
+
+  void ContactIteration::go_back_to(const Start &start, grains::GrainArrays &grains)
+  {
+    contacts.restore(start.contacts);
+    const auto columns = columns_of(grains, grains::GrainColumn::When::changing);
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      *columns[c] = start.columns[c];
   }
 
 

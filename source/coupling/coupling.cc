@@ -96,7 +96,15 @@ namespace alluvium::coupling
                                        const double                     dt,
                                        const bool                       fixed)
   {
-    return {dt, fixed, {grains.vx, grains.vy, grains.omega, grains.fcx, grains.fcy, grains.mass}, touched};
+    return {dt,
+            fixed,
+            {grains.velocity[0],
+             grains.velocity[1],
+             grains.omega,
+             grains.contact_force[0],
+             grains.contact_force[1],
+             grains.mass},
+            touched};
   }
 
 
@@ -133,11 +141,11 @@ namespace alluvium::coupling
   void Coupling::load(ByteReader &reader, const grains::GrainArrays &grains)
   {
     grains::GrainArrays then = grains;
-    then.x                   = reader.get_vector<double>();
-    then.y                   = reader.get_vector<double>();
+    then.position[0]         = reader.get_vector<double>();
+    then.position[1]         = reader.get_vector<double>();
     outside                  = reader.get_vector<std::uint8_t>();
     const bool same          = reader.get<std::uint8_t>() != 0;
-    if (then.x.size() != grains.n() || then.y.size() != grains.n())
+    if (then.position[0].size() != grains.n() || then.position[1].size() != grains.n())
       throw std::runtime_error("The checkpoint has another number of grains.");
     update_void_fraction(then);
     resumes = same;
@@ -245,7 +253,7 @@ namespace alluvium::coupling
     change.add(-1., before);
     double fastest_grain = 0.;
     for (std::size_t g = 0; g < grains.n(); ++g)
-      fastest_grain = std::max(fastest_grain, std::hypot(grains.vx[g], grains.vy[g]));
+      fastest_grain = std::max(fastest_grain, std::hypot(grains.velocity[0][g], grains.velocity[1][g]));
     const double speed        = fluid::largest_speed(*space, solver->old().block(0)),
                  acceleration = fluid::largest_speed(*space, change.block(0)); // times dt
     const bool is_slow        = std::max(acceleration, fastest_grain) <= 1e-2 * speed;
@@ -376,8 +384,8 @@ namespace alluvium::coupling
           for (unsigned int v = 0; v < n; ++v)
             s.eps += terms.shape[k].phi[v] * eps.local_element(space->cells()[c].node[v]);
           const auto   spin = state.spin_velocity(k);
-          const double ux   = state.old[k].u[0] - state.grains.vx[g] - spin[0];
-          const double uy   = state.old[k].u[1] - state.grains.vy[g] - spin[1];
+          const double ux   = state.old[k].u[0] - state.grains.velocity[0][g] - spin[0];
+          const double uy   = state.old[k].u[1] - state.grains.velocity[1][g] - spin[1];
           s.slip            = std::sqrt(ux * ux + uy * uy);
           s.diameter        = 2. * state.grains.fluid_radius[g];
           drag_means[2 * g] += terms.shape[k].area * s.eps;
@@ -425,8 +433,8 @@ namespace alluvium::coupling
         const auto         f   = piece_force(state, k).force;
         const auto        &arm = map.arms()[k].arm;
         const auto        &c   = map.arms()[k].moments;
-        sum += area *
-               ((state.grains.x[g] + arm[0] + shift[k][0]) * f[1] - (state.grains.y[g] + arm[1] + shift[k][1]) * f[0]);
+        sum += area * ((state.grains.position[0][g] + arm[0] + shift[k][0]) * f[1] -
+                       (state.grains.position[1][g] + arm[1] + shift[k][1]) * f[0]);
         sum += (1. - b) * couple(state, k, state.latest_gradient[k]) - area * state.gamma[k] * x.omega * (c[0] + c[2]);
         if (x.reference)
           sum += b * couple(state, k, x.reference == 1 ? state.old_gradient[k] : state.before_latest_gradient[k]);
@@ -450,9 +458,10 @@ namespace alluvium::coupling
               middle += space->cells()[c].vertex[v][d] / n;
             for (unsigned int k = begin[c]; k < begin[c + 1]; ++k)
               {
-                const unsigned int g        = map.grain()[k];
-                const double       position = (d == 0 ? state.grains.x[g] : state.grains.y[g]) + map.arms()[k].arm[d];
-                result[k][d]                = box.length[d] * std::round((middle - position) / box.length[d]);
+                const unsigned int g = map.grain()[k];
+                const double       position =
+                  (d == 0 ? state.grains.position[0][g] : state.grains.position[1][g]) + map.arms()[k].arm[d];
+                result[k][d] = box.length[d] * std::round((middle - position) / box.length[d]);
               }
           }
     return result;
@@ -527,10 +536,11 @@ namespace alluvium::coupling
   }
 
 
-  std::vector<double> Coupling::unseen_force(const GrainMotion &motion, const grains::GrainLoads &loads) const
+  std::vector<double> Coupling::unseen_force(const grains::Components &before,
+                                             const GrainMotion        &motion,
+                                             const grains::GrainLoads &loads) const
   {
-    Assert(latest_state && map.is_cut_where(latest_state->grains),
-           ExcMessage("The grains of the latest step must be where they were."));
+    Assert(latest_state, ExcMessage("unseen_force() comes after step()."));
     const CouplingState &state = *latest_state;
     std::vector<double>  result(2 * force.size());
     for (std::size_t g = 0; g < force.size(); ++g)
@@ -540,9 +550,9 @@ namespace alluvium::coupling
         const double coefficient = loads.drag[g] + added;
         if (std::isinf(state.grains.mass[g]))
           continue;
-        result[2 * g] = loads.fx[g] - weight[0] - force[g][0] + added * state.grains.vx[g] - coefficient * motion.vx[g];
+        result[2 * g] = loads.force[0][g] - weight[0] - force[g][0] + added * before[0][g] - coefficient * motion.vx[g];
         result[2 * g + 1] =
-          loads.fy[g] - weight[1] - force[g][1] + added * state.grains.vy[g] - coefficient * motion.vy[g];
+          loads.force[1][g] - weight[1] - force[g][1] + added * before[1][g] - coefficient * motion.vy[g];
       }
     return result;
   }

@@ -58,7 +58,8 @@ namespace alluvium::coupling
               const unsigned int g    = map.grain()[k];
               const auto         grad = fluid::piece_gradients<n>(cell, terms.shape[k].phi);
               for (unsigned int v = 0; v < n; ++v)
-                leaving(v) += terms.shape[k].area * (grains.vx[g] * grad[v][0] + grains.vy[g] * grad[v][1]);
+                leaving(v) +=
+                  terms.shape[k].area * (grains.velocity[0][g] * grad[v][0] + grains.velocity[1][g] * grad[v][1]);
             }
           for (unsigned int v = 0; v < n; ++v)
             nodes[v] = partitioner.local_to_global(cell.node[v]);

@@ -4,7 +4,6 @@
 #include <alluvium/grains/packing.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/numbers.h>
 
 #include <boost/math/tools/roots.hpp>
 
@@ -17,7 +16,7 @@ namespace alluvium::coupling
   {
     double sum = 0.;
     for (const double r : grains.fluid_radius)
-      sum += dealii::numbers::PI * r * r * law.gamma({eps, u, 2. * r, fluid.density, fluid.viscosity});
+      sum += grains::disc_volume(r) * law.gamma({eps, u, 2. * r, fluid.density, fluid.viscosity});
     return sum;
   }
 
@@ -26,7 +25,7 @@ namespace alluvium::coupling
   {
     double volume = 0.;
     for (const double r : grains.fluid_radius)
-      volume += dealii::numbers::PI * r * r;
+      volume += grains::disc_volume(r);
     const double drag = resistance(law, 0.);
     return drag > 0. ? fluid.viscosity * eps * eps * volume / ((1. - eps) * drag) : 0.;
   }
@@ -37,8 +36,7 @@ namespace alluvium::coupling
     double weight = 0.;
     for (std::size_t i = 0; i < grains.n(); ++i)
       if (!std::isinf(grains.mass[i]))
-        weight +=
-          g * (grains.mass[i] - fluid.density * dealii::numbers::PI * grains.fluid_radius[i] * grains.fluid_radius[i]);
+        weight += g * (grains.mass[i] - grains::disc_mass(fluid.density, grains.fluid_radius[i]));
     // inertia only adds to the drag of creeping flow: that is where the search starts
     const double start = eps * weight / resistance(law, 0.);
     if (!(weight > 0.) || !std::isfinite(start))

@@ -6,7 +6,6 @@
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/numbers.h>
 
 #include <algorithm>
 
@@ -79,10 +78,11 @@ namespace alluvium::coupling
         cut_with.shape_of_discs() == settings.shape_of_discs() && cut_with.keep_arms == settings.keep_arms &&
         position.radius == radius && position.fluid_radius == grains.fluid_radius)
       for (std::size_t g = 0; g < n; ++g)
-        moved[g] = std::max(std::abs(grains.x[g] - position.x[g]), std::abs(grains.y[g] - position.y[g])) >
-                   2. * settings.tolerance * grains.radius[g];
+        moved[g] =
+          std::max(std::abs(grains.position[0][g] - position.x[g]), std::abs(grains.position[1][g] - position.y[g])) >
+          2. * settings.tolerance * grains.radius[g];
     else
-      position = {grains.x, grains.y, radius, grains.fluid_radius};
+      position = {grains.position[0], grains.position[1], radius, grains.fluid_radius};
     cut_with = settings;
     return moved;
   }
@@ -93,7 +93,7 @@ namespace alluvium::coupling
     if (position.x.size() != grains.n())
       return false;
     for (std::size_t g = 0; g < grains.n(); ++g)
-      if (std::max(std::abs(grains.x[g] - position.x[g]), std::abs(grains.y[g] - position.y[g])) >
+      if (std::max(std::abs(grains.position[0][g] - position.x[g]), std::abs(grains.position[1][g] - position.y[g])) >
           2. * cut_with.tolerance * grains.radius[g])
         return false;
     return true;
@@ -123,8 +123,8 @@ namespace alluvium::coupling
     for (std::size_t g = 0; g < grains.n(); ++g)
       if (moved[g])
         {
-          position.x[g] = grains.x[g];
-          position.y[g] = grains.y[g];
+          position.x[g] = grains.position[0][g];
+          position.y[g] = grains.position[1][g];
         }
     GrainImages then = all ? GrainImages() : GrainImages(before.x, before.y, max_radius, box, mirrors);
     GrainImages now(position.x, position.y, max_radius, box, mirrors);
@@ -143,9 +143,9 @@ namespace alluvium::coupling
     for (std::size_t g = 0; g < grains.n(); ++g)
       {
         if (!(weight[g] > 0.)) // a message for every grain would cost more than cutting it
-          throw UserError("Grain " + std::to_string(grains.id[g]) + " at (" + std::to_string(grains.x[g]) + ", " +
-                          std::to_string(grains.y[g]) + ") m has left the fluid's domain.");
-        weight[g] = numbers::PI * grains.fluid_radius[g] * grains.fluid_radius[g] / weight[g];
+          throw UserError("Grain " + std::to_string(grains.id[g]) + " at (" + std::to_string(grains.position[0][g]) +
+                          ", " + std::to_string(grains.position[1][g]) + ") m has left the fluid's domain.");
+        weight[g] = grains::disc_volume(grains.fluid_radius[g]) / weight[g];
       }
     for (std::size_t k = 0; k < raw_area.size(); ++k)
       pieces.shape[k].area = raw_area[k] * weight[grain_of_piece[k]];

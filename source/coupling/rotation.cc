@@ -33,8 +33,8 @@ namespace alluvium::coupling
         const auto        &c      = state.map.arms()[k].moments;
         const double       area = state.map.terms().shape[k].area, gamma = state.gamma[k];
 
-        std::array<double, 2> push = {
-          {gamma * (f.u[0] - state.grains.vx[g]) - f.grad_p[0], gamma * (f.u[1] - state.grains.vy[g]) - f.grad_p[1]}};
+        std::array<double, 2> push = {{gamma * (f.u[0] - state.grains.velocity[0][g]) - f.grad_p[0],
+                                       gamma * (f.u[1] - state.grains.velocity[1][g]) - f.grad_p[1]}};
         if (state.added_density > 0.)
           for (unsigned int d = 0; d < 2; ++d)
             push[d] += state.added_density * (f.u[d] / state.dt + state.acceleration[k][d]);

@@ -11,7 +11,7 @@ namespace alluvium::coupling
     {
       const unsigned int          g    = state.map.grain()[k];
       const std::array<double, 2> spin = state.spin_velocity(k);
-      return {{state.grains.vx[g] + spin[0], state.grains.vy[g] + spin[1]}};
+      return {{state.grains.velocity[0][g] + spin[0], state.grains.velocity[1][g] + spin[1]}};
     }
 
     class Explicit : public TimeScheme

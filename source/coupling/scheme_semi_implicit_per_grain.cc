@@ -70,8 +70,8 @@ namespace alluvium::coupling
         for (std::size_t g = 0; g < state.grains.n(); ++g)
           {
             const auto weight = state.reduced_weight(g);
-            loads.fx[g]       = weight[0] + sums[3 * g];
-            loads.fy[g]       = weight[1] + sums[3 * g + 1];
+            loads.force[0][g] = weight[0] + sums[3 * g];
+            loads.force[1][g] = weight[1] + sums[3 * g + 1];
             loads.drag[g]     = sums[3 * g + 2];
           }
         if (state.added_density == 0.)
@@ -82,8 +82,8 @@ namespace alluvium::coupling
           {
             const double mass   = state.added_density * state.volume(g);
             loads.added_mass[g] = mass;
-            loads.fx[g] -= mass / state.dt * state.grains.vx[g];
-            loads.fy[g] -= mass / state.dt * state.grains.vy[g];
+            loads.force[0][g] -= mass / state.dt * state.grains.velocity[0][g];
+            loads.force[1][g] -= mass / state.dt * state.grains.velocity[1][g];
             loads.drag[g] -= mass / state.dt;
           }
       }
@@ -95,13 +95,16 @@ namespace alluvium::coupling
       {
         const auto               &grains = state.grains;
         const std::vector<double> sums   = sum_over_pieces(state, lag);
-        GrainMotion               motion{grains.vx, grains.vy, predicted_spin(state, sweep)};
+        GrainMotion               motion{grains.velocity[0], grains.velocity[1], predicted_spin(state, sweep)};
         for (std::size_t g = 0; g < grains.n(); ++g)
           {
             const double inertia = grains.mass[g] / state.dt, denominator = inertia + sums[3 * g + 2];
             const auto   weight = state.reduced_weight(g);
-            motion.vx[g]        = (inertia * grains.vx[g] + weight[0] + grains.fcx[g] + sums[3 * g]) / denominator;
-            motion.vy[g]        = (inertia * grains.vy[g] + weight[1] + grains.fcy[g] + sums[3 * g + 1]) / denominator;
+            motion.vx[g] =
+              (inertia * grains.velocity[0][g] + weight[0] + grains.contact_force[0][g] + sums[3 * g]) / denominator;
+            motion.vy[g] =
+              (inertia * grains.velocity[1][g] + weight[1] + grains.contact_force[1][g] + sums[3 * g + 1]) /
+              denominator;
           }
         return motion;
       }

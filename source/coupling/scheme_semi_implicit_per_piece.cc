@@ -34,9 +34,10 @@ namespace alluvium::coupling
             x.compliance               = 1. / (inertia + x.gamma);
             x.omega                    = x.compliance * inertia * grains.omega[g];
             x.e                        = added;
-            x.a                        = {
-                                     {x.compliance * (inertia * (grains.vx[g] + spin[0]) + (weight[0] + grains.fcx[g]) / volume + added[0]),
-                                      x.compliance * (inertia * (grains.vy[g] + spin[1]) + (weight[1] + grains.fcy[g]) / volume + added[1])}};
+            x.a                        = {{x.compliance * (inertia * (grains.velocity[0][g] + spin[0]) +
+                                    (weight[0] + grains.contact_force[0][g]) / volume + added[0]),
+                                           x.compliance * (inertia * (grains.velocity[1][g] + spin[1]) +
+                                    (weight[1] + grains.contact_force[1][g]) / volume + added[1])}};
           }
       }
     };

@@ -1,7 +1,6 @@
 #include <alluvium/coupling/time_scheme.h>
 #include <alluvium/fluid/piece_gradients.h>
 
-#include <deal.II/base/numbers.h>
 
 namespace alluvium::coupling
 {
@@ -92,8 +91,8 @@ namespace alluvium::coupling
       return {{0., 0.}};
     const unsigned int          g    = map.grain()[k];
     const std::array<double, 2> spin = spin_velocity(k);
-    return {{added_density * (acceleration[k][0] + (grains.vx[g] + spin[0]) / dt),
-             added_density * (acceleration[k][1] + (grains.vy[g] + spin[1]) / dt)}};
+    return {{added_density * (acceleration[k][0] + (grains.velocity[0][g] + spin[0]) / dt),
+             added_density * (acceleration[k][1] + (grains.velocity[1][g] + spin[1]) / dt)}};
   }
 
 
@@ -114,7 +113,7 @@ namespace alluvium::coupling
 
   double CouplingState::volume(const std::size_t g) const
   {
-    return dealii::numbers::PI * grains.fluid_radius[g] * grains.fluid_radius[g];
+    return grains::disc_volume(grains.fluid_radius[g]);
   }
 
 
@@ -132,8 +131,8 @@ namespace alluvium::coupling
     for (std::size_t g = 0; g < state.grains.n(); ++g)
       {
         const auto weight = state.reduced_weight(g);
-        loads.fx[g]       = weight[0] + force[g][0];
-        loads.fy[g]       = weight[1] + force[g][1];
+        loads.force[0][g] = weight[0] + force[g][0];
+        loads.force[1][g] = weight[1] + force[g][1];
         loads.drag[g]     = 0.;
       }
   }

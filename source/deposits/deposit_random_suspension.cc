@@ -1,6 +1,7 @@
 #include <alluvium/deposits/deposit_box.h>
 #include <alluvium/deposits/deposit_fit.h>
 #include <alluvium/deposits/deposit_room.h>
+#include <alluvium/grains/grain_arrays.h>
 #include <alluvium/utilities/plugin.h>
 #include <alluvium/utilities/random_numbers.h>
 
@@ -42,7 +43,7 @@ namespace alluvium::deposits
       for (double filled = 0.;;)
         {
           const double r = 0.5 * d_min * random.uniform(1., ratio);
-          filled += M_PI * r * r;
+          filled += grains::disc_volume(r);
           if (filled > area_fraction * area)
             break;
           radii.push_back(r);

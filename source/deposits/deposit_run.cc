@@ -6,7 +6,6 @@
 #include <alluvium/utilities/plugin.h>
 #include <alluvium/utilities/user_error.h>
 
-#include <deal.II/base/numbers.h>
 #include <deal.II/base/parameter_handler.h>
 
 #include <nlohmann/json.hpp>
@@ -66,11 +65,12 @@ namespace alluvium::deposits
       for (std::size_t i = 0; i < grains.n(); ++i)
         {
           const double r = fluid_radius ? grains.fluid_radius[i] : grains.radius[i];
-          seeds.push_back({grains.x[i], grains.y[i], grains.radius[i], grains.mass[i] / (dealii::numbers::PI * r * r)});
+          seeds.push_back(
+            {grains.position[0][i], grains.position[1][i], grains.radius[i], grains.mass[i] / grains::disc_volume(r)});
           if (keep_velocities)
             {
-              seeds.back().vx    = grains.vx[i];
-              seeds.back().vy    = grains.vy[i];
+              seeds.back().vx    = grains.velocity[0][i];
+              seeds.back().vy    = grains.velocity[1][i];
               seeds.back().omega = grains.omega[i];
             }
         }

@@ -62,22 +62,22 @@ namespace alluvium::deposits
         dt = 0.2 * std::sqrt(smallest / settling.g);
         for (std::size_t k = 0; k < n; ++k)
           {
-            const Seed &s    = seeds[k];
-            grains.id[k]     = static_cast<grains::GrainId>(k);
-            grains.x[k]      = s.x;
-            grains.y[k]      = s.y;
-            grains.radius[k] = s.radius;
-            grains.mass[k]   = s.density * M_PI * s.radius * s.radius;
-            loads.fy[k]      = -grains.mass[k] * settling.g;
-            loads.drag[k]    = grains.mass[k] / (2. * dt);
-            weight -= loads.fy[k];
+            const Seed &s         = seeds[k];
+            grains.id[k]          = static_cast<grains::GrainId>(k);
+            grains.position[0][k] = s.x;
+            grains.position[1][k] = s.y;
+            grains.radius[k]      = s.radius;
+            grains.mass[k]        = grains::disc_mass(s.density, s.radius);
+            loads.force[1][k]     = -grains.mass[k] * settling.g;
+            loads.drag[k]         = grains.mass[k] / (2. * dt);
+            weight -= loads.force[1][k];
           }
       }
 
       /** Take all motion and all knowledge of contact forces away. */
       void start_cold(const double tolerance)
       {
-        for (auto *v : {&grains.vx, &grains.vy, &grains.omega})
+        for (auto *v : {&grains.velocity[0], &grains.velocity[1], &grains.omega})
           std::fill(v->begin(), v->end(), 0.);
         stepper = std::make_unique<contacts::ContactStepper>();
         stepper->set_walls(all_walls(settling));
@@ -97,7 +97,7 @@ namespace alluvium::deposits
       void go_on()
       {
         constexpr unsigned int    n_window = 10;
-        const std::vector<double> x = grains.x, y = grains.y;
+        const std::vector<double> x = grains.position[0], y = grains.position[1];
         double                    carried = 0.;
         for (unsigned int s = 0; s < n_window; ++s)
           carried += solve_step() / n_window;
@@ -105,7 +105,7 @@ namespace alluvium::deposits
         n_moved       = 0;
         for (std::size_t k = 0; k < n; ++k)
           {
-            double dx = grains.x[k] - x[k], dy = grains.y[k] - y[k];
+            double dx = grains.position[0][k] - x[k], dy = grains.position[1][k] - y[k];
             periodicity.shorten(dx, dy);
             const double way = std::hypot(dx, dy);
             square += way * way;
@@ -180,8 +180,8 @@ namespace alluvium::deposits
                  in_digits(bed.state.support) + " of the weight. Try another seed, or other friction while settling.");
     for (std::size_t k = 0; k < seeds.size(); ++k)
       {
-        seeds[k].x = bed.grains.x[k];
-        seeds[k].y = bed.grains.y[k];
+        seeds[k].x = bed.grains.position[0][k];
+        seeds[k].y = bed.grains.position[1][k];
       }
     bed.state.packing = inner_packing_fraction(bed.grains);
     return bed.state;

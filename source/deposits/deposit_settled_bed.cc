@@ -5,6 +5,7 @@
 #include <alluvium/deposits/deposit_room.h>
 #include <alluvium/deposits/deposit_settle.h>
 #include <alluvium/deposits/deposit_table.h>
+#include <alluvium/grains/grain_arrays.h>
 #include <alluvium/utilities/digits.h>
 #include <alluvium/utilities/plugin.h>
 #include <alluvium/utilities/random_numbers.h>
@@ -208,7 +209,7 @@ namespace alluvium::deposits
           const double r = 0.5 * d_min * random.uniform(1., ratio);
           const auto   p = pour.add(r, random);
           seeds.push_back({p[0], p[1], r, context.density});
-          area += M_PI * r * r;
+          area += grains::disc_volume(r);
           // Rolled discs lie nearly as dense as they will: a tenth of the height is more than settling gains.
           check_user(looseness > 0. || n == 0 || p[1] < box.lower[1] + 1.15 * box.height() + 4. * d_min * ratio,
                      "The deposit 'settled bed' cannot fit: " + std::to_string(seeds.size()) + " of its " +

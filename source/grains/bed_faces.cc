@@ -1,5 +1,4 @@
 #include <alluvium/grains/bed_faces.h>
-#include <alluvium/utilities/constants.h>
 
 #include <algorithm>
 #include <cmath>
@@ -105,9 +104,9 @@ namespace alluvium::grains
     grains::GrainArrays result = grains;
     for (std::size_t i = 0; i < grains.n(); ++i)
       {
-        const auto at = upright.to({{grains.x[i], grains.y[i]}});
-        result.x[i]   = at[0];
-        result.y[i]   = at[1];
+        const auto at         = upright.to({{grains.position[0][i], grains.position[1][i]}});
+        result.position[0][i] = at[0];
+        result.position[1][i] = at[1];
       }
     return result;
   }
@@ -142,14 +141,14 @@ namespace alluvium::grains
       {
         // one between two columns belongs to both, or round-off would choose
         constexpr double round_off = 1e-9;
-        const double     position  = (grains.x[i] - left) / width;
+        const double     position  = (grains.position[0][i] - left) / width;
         const auto       number_at = [&](const double p) { return std::floor(std::clamp(p, 0., n_columns - 1.)); };
         const double     first = number_at(position - round_off), last = number_at(position + round_off);
-        const double     r = grains.radius[i], area = pi * r * r / (last - first + 1.);
+        const double     r = grains.radius[i], area = disc_volume(r) / (last - first + 1.);
         for (double c = first; c <= last; ++c)
           {
-            columns[c].bottoms.emplace_back(grains.y[i] - r, area);
-            columns[c].tops.emplace_back(-grains.y[i] - r, area); // negative: from the top down
+            columns[c].bottoms.emplace_back(grains.position[1][i] - r, area);
+            columns[c].tops.emplace_back(-grains.position[1][i] - r, area); // negative: from the top down
           }
       }
     const double quarter_layer = 0.25 * d * width;

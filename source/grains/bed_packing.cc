@@ -1,6 +1,5 @@
 #include <alluvium/grains/bed_faces.h>
 #include <alluvium/grains/bed_packing.h>
-#include <alluvium/utilities/constants.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,13 +18,15 @@ namespace alluvium::grains
                              const std::size_t               end)
     {
       grains::GrainArrays result;
+      result.resize(end - begin);
       for (std::size_t k = begin; k < end; ++k)
         {
-          const std::size_t i = order[k];
-          result.x.push_back(grains.x[i]);
-          result.y.push_back(grains.y[i]);
-          result.radius.push_back(grains.radius[i]);
-          result.fluid_radius.push_back(grains.fluid_radius[i]);
+          const std::size_t i            = order[k];
+          result.id[k - begin]           = grains.id[i];
+          result.position[0][k - begin]  = grains.position[0][i];
+          result.position[1][k - begin]  = grains.position[1][i];
+          result.radius[k - begin]       = grains.radius[i];
+          result.fluid_radius[k - begin] = grains.fluid_radius[i];
         }
       return result;
     }
@@ -57,10 +58,12 @@ namespace alluvium::grains
     const auto              &c      = faces.columns;
     std::vector<std::size_t> order(grains.n());
     std::iota(order.begin(), order.end(), std::size_t(0));
-    std::sort(order.begin(), order.end(), [&](const auto i, const auto j) { return grains.x[i] < grains.x[j]; });
+    std::sort(order.begin(), order.end(), [&](const auto i, const auto j) {
+      return grains.position[0][i] < grains.position[0][j];
+    });
     const auto before = [&](const double x) -> std::size_t {
       return std::lower_bound(
-               order.begin(), order.end(), x, [&](const auto i, const double y) { return grains.x[i] < y; }) -
+               order.begin(), order.end(), x, [&](const auto i, const double y) { return grains.position[0][i] < y; }) -
              order.begin();
     };
     for (std::size_t k = 0; k < c.size(); ++k)
@@ -75,8 +78,8 @@ namespace alluvium::grains
             double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
             for (std::size_t i = 0; i < inside.n(); ++i)
               {
-                low  = std::min(low, inside.x[i] - inside.radius[i]);
-                high = std::max(high, inside.x[i] + inside.radius[i]);
+                low  = std::min(low, inside.position[0][i] - inside.radius[i]);
+                high = std::max(high, inside.position[0][i] + inside.radius[i]);
               }
             const double from = first && low > column.left + d ? low : column.left,
                          to   = last && high < column.right - d ? high : column.right;
@@ -106,8 +109,8 @@ namespace alluvium::grains
         area += (column.right - column.left) * (column.top - column.bottom);
         for (std::size_t i = 0; i < inside.n(); ++i)
           {
-            result.solid += pi * inside.radius[i] * inside.radius[i];
-            result.fluid_solid += pi * inside.fluid_radius[i] * inside.fluid_radius[i];
+            result.solid += disc_volume(inside.radius[i]);
+            result.fluid_solid += disc_volume(inside.fluid_radius[i]);
           }
       }
     result.height = result.width > 0. ? area / result.width : 0.;
@@ -117,8 +120,8 @@ namespace alluvium::grains
         result = {right - left, faces.mean_height(), 0., 0.};
         for (std::size_t i = 0; i < grains.n(); ++i)
           {
-            result.solid += pi * grains.radius[i] * grains.radius[i];
-            result.fluid_solid += pi * grains.fluid_radius[i] * grains.fluid_radius[i];
+            result.solid += disc_volume(grains.radius[i]);
+            result.fluid_solid += disc_volume(grains.fluid_radius[i]);
           }
       }
     return result;

@@ -1,3 +1,4 @@
+#include <alluvium/grains/grain_columns.h>
 #include <alluvium/grains/grain_store.h>
 #include <alluvium/utilities/user_error.h>
 
@@ -20,87 +21,72 @@ namespace alluvium::grains
 
   namespace
   {
-    /** The particles' properties, in their order. */
-    constexpr std::array<std::vector<double> GrainArrays::*, 10> properties = {{&GrainArrays::radius,
-                                                                                &GrainArrays::fluid_radius,
-                                                                                &GrainArrays::mass,
-                                                                                &GrainArrays::vx,
-                                                                                &GrainArrays::vy,
-                                                                                &GrainArrays::omega,
-                                                                                &GrainArrays::fcx,
-                                                                                &GrainArrays::fcy,
-                                                                                &GrainArrays::x0,
-                                                                                &GrainArrays::y0}};
-    enum Property
-    {
-      radius,
-      fluid_radius,
-      mass,
-      vx,
-      vy,
-      omega,
-      fcx,
-      fcy,
-      x0,
-      y0
-    };
+    /** The columns that are the particles' properties: all but the position. */
+    constexpr unsigned int n_properties = n_grain_numbers - 2;
 
-    // a grain on the wire: id, x, y, properties
-    constexpr unsigned int n_wire = 3 + properties.size();
+    template <typename Grains, typename Function>
+    void for_each_property(Grains &grains, const Function &use)
+    {
+      unsigned int p = 0;
+      for_each_column(grains, [&](auto &values, const GrainColumn &column) {
+        if (&values != &grains.position[0] && &values != &grains.position[1])
+          use(values, column, p++);
+      });
+    }
 
     /** Grains as points for ParaView: Particles::DataOut writes properties only, and the displacement is none. */
     class GrainOutput : public DataOutInterface<0, 2>
     {
     public:
-      explicit GrainOutput(const Particles::ParticleHandler<2> &particles)
+      GrainOutput(const Particles::ParticleHandler<2> &particles,
+                  const GrainArrays                   &grains,
+                  const std::vector<std::uint32_t>    &number_of_id)
       {
+        names = {"id", "displacement", "displacement"};
+        vectors.emplace_back(1u, 2u, "displacement", DataComponentInterpretation::component_is_part_of_vector);
+        std::vector<const std::vector<double> *> columns;
+        for (const GrainColumn &column : grain_columns)
+          if (column.in_pictures)
+            {
+              if (column.n_components > 1)
+                vectors.emplace_back(names.size(),
+                                     names.size() + column.n_components - 1,
+                                     column.name,
+                                     DataComponentInterpretation::component_is_part_of_vector);
+              for (unsigned int c = 0; c < column.n_components; ++c)
+                {
+                  names.emplace_back(column.name);
+                  columns.push_back(&column.values(grains, c));
+                }
+            }
         for (const auto &particle : particles)
           {
-            const auto               p = particle.get_properties();
-            const Point<2>           x = particle.get_location();
+            const std::uint32_t      i = number_of_id[particle.get_id()];
             DataOutBase::Patch<0, 2> patch;
-            patch.vertices[0] = x;
+            patch.vertices[0] = particle.get_location();
             patch.patch_index = patches.size();
             patch.data.reinit(names.size(), 1);
-            const std::array<double, 9> values = {{double(particle.get_id()),
-                                                   p[radius],
-                                                   x[0] - p[x0],
-                                                   x[1] - p[y0],
-                                                   p[vx],
-                                                   p[vy],
-                                                   p[omega],
-                                                   p[fcx],
-                                                   p[fcy]}};
-            for (unsigned int i = 0; i < values.size(); ++i)
-              patch.data(i, 0) = values[i];
+            patch.data(0, 0) = particle.get_id();
+            for (unsigned int d = 0; d < 2; ++d)
+              patch.data(1 + d, 0) = grains.position[d][i] - grains.initial_position[d][i];
+            for (unsigned int k = 0; k < columns.size(); ++k)
+              patch.data(3 + k, 0) = (*columns[k])[i];
             patches.push_back(patch);
           }
       }
 
     protected:
+      using Vector =
+        std::tuple<unsigned int, unsigned int, std::string, DataComponentInterpretation::DataComponentInterpretation>;
+
       const std::vector<DataOutBase::Patch<0, 2>> &get_patches() const override { return patches; }
       std::vector<std::string>                     get_dataset_names() const override { return names; }
-      std::vector<
-        std::tuple<unsigned int, unsigned int, std::string, DataComponentInterpretation::DataComponentInterpretation>>
-      get_nonscalar_data_ranges() const override
-      {
-        const auto vector = DataComponentInterpretation::component_is_part_of_vector;
-        return {std::make_tuple(2u, 3u, "displacement", vector),
-                std::make_tuple(4u, 5u, "velocity", vector),
-                std::make_tuple(7u, 8u, "contact_force", vector)};
-      }
+      std::vector<Vector>                          get_nonscalar_data_ranges() const override { return vectors; }
 
     private:
       std::vector<DataOutBase::Patch<0, 2>> patches;
-      const std::vector<std::string>        names = {"id",
-                                                     "radius",
-                                                     "displacement",
-                                                     "displacement",
-                                                     "velocity",
-                                                     "velocity",
-                                                     "angular_velocity",
-                                                     "contact_force",
-                                                     "contact_force"};
+      std::vector<std::string>              names;
+      std::vector<Vector>                   vectors;
     };
   } // namespace
 
@@ -114,10 +100,8 @@ namespace alluvium::grains
       : communicator(communicator)
     {}
 
-    void make_grid(const GrainArrays           &grains,
-                   const std::array<double, 2> &box_lower,
-                   const std::array<double, 2> &box_upper,
-                   const double                 skin)
+    /** Choose the grid; its cells are made when particles are first asked for. */
+    void choose_grid(const std::array<double, 2> &box_lower, const std::array<double, 2> &box_upper, const double skin)
     {
       double largest = 0.;
       for (const double r : grains.radius)
@@ -141,10 +125,9 @@ namespace alluvium::grains
       for (unsigned int d = 0; d < 2; ++d)
         n[d] = count(d);
       // trees of the forest are dear, its refinement is cheap; a few cells more or less in a row do not matter
-      unsigned int n_levels = 0;
+      n_levels = 0;
       while (std::min(n[0], n[1]) / (2 << n_levels) >= 8.)
         ++n_levels;
-      std::vector<unsigned int> n_trees(2);
       for (unsigned int d = 0; d < 2; ++d)
         {
           n_trees[d] = static_cast<unsigned int>(n[d]) >> n_levels;
@@ -152,11 +135,18 @@ namespace alluvium::grains
           size[d]    = (upper[d] - lower[d]) / n_cells[d];
         }
       particles.reset();
+    }
+
+    void make_grid()
+    {
       grid.clear();
       GridGenerator::subdivided_hyper_rectangle(grid, n_trees, lower, upper);
       grid.refine_global(n_levels);
-      list_cells();
-      particles = std::make_unique<Particles::ParticleHandler<2>>(grid, mapping, properties.size());
+      my_cells.assign(std::size_t(n_cells[0]) * n_cells[1], Cell());
+      for (const auto &cell : grid.active_cell_iterators())
+        if (cell->is_locally_owned())
+          my_cells[cell_number(cell->center()[0], cell->center()[1])] = cell;
+      particles = std::make_unique<Particles::ParticleHandler<2>>(grid, mapping, n_properties);
     }
 
     /** Number of the grid's cell around (x, y). */
@@ -176,20 +166,12 @@ namespace alluvium::grains
       return near(m % n_cells[0], n % n_cells[0]) && near(m / n_cells[0], n / n_cells[0]);
     }
 
-    void list_cells()
-    {
-      my_cells.assign(std::size_t(n_cells[0]) * n_cells[1], Cell());
-      for (const auto &cell : grid.active_cell_iterators())
-        if (cell->is_locally_owned())
-          my_cells[cell_number(cell->center()[0], cell->center()[1])] = cell;
-    }
-
     /** Throws on all ranks, which have the same arrays. */
-    void check_positions(const GrainArrays &grains) const
+    void check_positions() const
     {
       for (std::size_t i = 0; i < grains.n(); ++i)
         {
-          const double x = grains.x[i], y = grains.y[i];
+          const double x = grains.position[0][i], y = grains.position[1][i];
           const bool   finite = std::isfinite(x) && std::isfinite(y);
           if (!(x >= lower[0] && x <= upper[0] && y >= lower[1] && y <= upper[1]) && !(may_leave && finite))
             {
@@ -202,65 +184,102 @@ namespace alluvium::grains
         }
     }
 
-    /** Put grain number @p i of @p grains into its cell if this rank owns that. */
-    void insert(const GrainArrays &grains, const std::size_t i)
+    Point<2> place(const std::size_t i) const { return {grains.position[0][i], grains.position[1][i]}; }
+
+    /** Put grain number @p i into its cell if this rank owns that. */
+    void insert(const std::size_t i)
     {
-      const Cell &cell = my_cells[cell_number(grains.x[i], grains.y[i])];
+      const Cell &cell = my_cells[cell_number(grains.position[0][i], grains.position[1][i])];
       if (cell == Cell())
         return;
-      const Point<2> x(grains.x[i], grains.y[i]), corner = cell->vertex(0);
+      const Point<2> x = place(i), corner = cell->vertex(0);
       Point<2>       reference;
       for (unsigned int d = 0; d < 2; ++d)
         reference[d] = std::clamp((x[d] - corner[d]) / (cell->vertex(3)[d] - corner[d]), 0., 1.);
-      std::array<double, properties.size()> values;
-      for (unsigned int p = 0; p < properties.size(); ++p)
-        values[p] = (grains.*properties[p])[i];
+      std::array<double, n_properties> values;
+      for_each_property(grains,
+                        [&](const auto &column, const GrainColumn &, const unsigned int p) { values[p] = column[i]; });
       particles->insert_particle(x, reference, grains.id[i], cell, make_array_view(values.begin(), values.end()));
     }
 
-    void insert_all(const GrainArrays &grains)
+    void insert_all()
     {
-      check_positions(grains);
       ids = grains.id;
       number_of_id.assign(ids.empty() ? 0 : ids.back() + 1, 0);
       for (std::size_t i = 0; i < ids.size(); ++i)
         number_of_id[ids[i]] = i;
       particles->clear_particles();
       for (std::size_t i = 0; i < grains.n(); ++i)
-        insert(grains, i);
+        insert(i);
       particles->update_cached_numbers();
-      n_grains = grains.n();
-      AssertThrow(particles->n_global_particles() == n_grains, ExcInternalError());
+      AssertThrow(particles->n_global_particles() == grains.n(), ExcInternalError());
     }
 
-    /** Insert those of @p grains that no rank has. */
-    void rescue(const GrainArrays &grains)
+    /** Insert those that no rank has. */
+    void rescue()
     {
-      std::vector<unsigned int> found(n_grains, 0);
+      std::vector<unsigned int> found(grains.n(), 0);
       for (const auto &particle : *particles)
         ++found[number_of_id[particle.get_id()]];
-      std::vector<unsigned int> found_anywhere(n_grains);
+      std::vector<unsigned int> found_anywhere(grains.n());
       Utilities::MPI::sum(found, communicator, found_anywhere);
-      for (std::size_t i = 0; i < n_grains; ++i)
+      for (std::size_t i = 0; i < grains.n(); ++i)
         if (found_anywhere[i] == 0)
           {
-            insert(grains, i);
+            insert(i);
             ++n_rescued;
           }
       particles->update_cached_numbers();
-      if (particles->n_global_particles() != n_grains)
+      if (particles->n_global_particles() != grains.n())
         throw std::runtime_error("There are " + std::to_string(particles->n_global_particles()) +
-                                 " grains instead of " + std::to_string(n_grains) +
+                                 " grains instead of " + std::to_string(grains.n()) +
                                  ": grains were lost or doubled between ranks.");
     }
 
+    /** Let the particles follow the arrays. */
+    void update()
+    {
+      AssertThrow(n_cells[0] > 0, ExcNotInitialized());
+      n_rescued = 0;
+      if (!particles)
+        make_grid();
+      if (ids != grains.id || particles->n_global_particles() != grains.n())
+        {
+          insert_all();
+          return;
+        }
+      // deal.II knows only the cells next to its own: who jumps farther is taken out here and put in again below
+      std::vector<Particles::ParticleIterator<2>> far;
+      for (auto particle = particles->begin(); particle != particles->end(); ++particle)
+        {
+          const auto i = number_of_id[particle->get_id()];
+          if (!are_neighbors(particle->get_surrounding_cell()->center(), place(i)))
+            {
+              far.push_back(particle);
+              continue;
+            }
+          particle->set_location(place(i));
+          const auto values = particle->get_properties();
+          for_each_property(
+            grains, [&](const auto &column, const GrainColumn &, const unsigned int p) { values[p] = column[i]; });
+        }
+      particles->remove_particles(far);
+      particles->sort_particles_into_subdomains_and_cells();
+      particles->update_cached_numbers();
+      if (particles->n_global_particles() != grains.n())
+        rescue();
+    }
+
+    GrainArrays                                    grains;
     MPI_Comm                                       communicator;
     Point<2>                                       lower, upper; // of the grid
     std::array<unsigned int, 2>                    n_cells = {{0, 0}};
     std::array<double, 2>                          size    = {{0., 0.}}; // of a cell
     std::vector<Cell>                              my_cells; // by number; invalid where another rank owns it
-    std::size_t                                    n_grains = 0, n_rescued = 0;
-    std::vector<GrainId>                           ids; // of all grains, in rising order
+    unsigned int                                   n_levels  = 0;
+    std::vector<unsigned int>                      n_trees   = {0, 0};
+    std::size_t                                    n_rescued = 0;
+    std::vector<GrainId>                           ids; // that there are particles of
     std::vector<std::uint32_t>                     number_of_id;
     bool                                           may_leave = false;
     MappingCartesian<2>                            mapping;
@@ -277,16 +296,24 @@ namespace alluvium::grains
   GrainStore::~GrainStore() = default;
 
 
-  void GrainStore::initialize(const GrainArrays           &grains,
-                              const std::array<double, 2> &lower,
-                              const std::array<double, 2> &upper,
-                              const double                 skin)
+  GrainArrays &GrainStore::grains()
   {
-    for (std::size_t i = 1; i < grains.n(); ++i)
-      AssertThrow(grains.id[i - 1] < grains.id[i], ExcMessage("Grains must be sorted by their ids."));
-    implementation->make_grid(grains, lower, upper, skin);
-    implementation->insert_all(grains);
-    implementation->n_rescued = 0;
+    return implementation->grains;
+  }
+
+
+  const GrainArrays &GrainStore::grains() const
+  {
+    return implementation->grains;
+  }
+
+
+  void GrainStore::initialize(const std::array<double, 2> &lower, const std::array<double, 2> &upper, const double skin)
+  {
+    for (std::size_t i = 1; i < grains().n(); ++i)
+      AssertThrow(grains().id[i - 1] < grains().id[i], ExcMessage("Grains must be sorted by their ids."));
+    implementation->choose_grid(lower, upper, skin);
+    implementation->check_positions();
   }
 
 
@@ -296,19 +323,20 @@ namespace alluvium::grains
   }
 
 
-  void GrainStore::replace(const GrainArrays &grains)
+  void GrainStore::check_positions() const
   {
-    implementation->insert_all(grains);
+    implementation->check_positions();
   }
 
 
-  std::size_t GrainStore::n_grains() const
+  const Particles::ParticleHandler<2> &GrainStore::particles()
   {
-    return implementation->n_grains;
+    implementation->update();
+    return *implementation->particles;
   }
 
 
-  std::size_t GrainStore::n_local_grains() const
+  std::size_t GrainStore::n_local_particles() const
   {
     return implementation->particles ? implementation->particles->n_locally_owned_particles() : 0;
   }
@@ -320,127 +348,9 @@ namespace alluvium::grains
   }
 
 
-  GrainArrays GrainStore::gather() const
+  void GrainStore::output(const std::function<void(DataOutInterface<0, 2> &)> &use)
   {
-    const Implementation &my = *implementation;
-    std::vector<double>   mine;
-    mine.reserve(n_wire * n_local_grains());
-    if (my.particles)
-      for (const auto &particle : *my.particles)
-        {
-          mine.push_back(particle.get_id());
-          mine.push_back(particle.get_location()[0]);
-          mine.push_back(particle.get_location()[1]);
-          for (const double value : particle.get_properties())
-            mine.push_back(value);
-        }
-
-    const auto       n_ranks = Utilities::MPI::n_mpi_processes(my.communicator);
-    std::vector<int> counts(n_ranks), offsets(n_ranks, 0);
-    const int        my_count = mine.size();
-    MPI_Allgather(&my_count, 1, MPI_INT, counts.data(), 1, MPI_INT, my.communicator);
-    std::partial_sum(counts.begin(), counts.end() - 1, offsets.begin() + 1);
-    std::vector<double> all(offsets.back() + counts.back());
-    MPI_Allgatherv(
-      mine.data(), my_count, MPI_DOUBLE, all.data(), counts.data(), offsets.data(), MPI_DOUBLE, my.communicator);
-
-    AssertThrow(all.size() == n_wire * my.n_grains, ExcInternalError());
-    GrainArrays result;
-    result.resize(my.n_grains);
-    std::vector<bool> seen(my.n_grains, false);
-    for (std::size_t k = 0; k < my.n_grains; ++k)
-      {
-        const double *grain = &all[n_wire * k];
-        const auto    id    = static_cast<GrainId>(grain[0]);
-        AssertThrow(id < my.number_of_id.size(), ExcInternalError());
-        const std::size_t i = my.number_of_id[id];
-        AssertThrow(i < my.n_grains && !seen[i], ExcInternalError());
-        seen[i]      = true;
-        result.id[i] = id;
-        result.x[i]  = grain[1];
-        result.y[i]  = grain[2];
-        for (unsigned int p = 0; p < properties.size(); ++p)
-          (result.*properties[p])[i] = grain[3 + p];
-      }
-    return result;
-  }
-
-
-  void GrainStore::scatter(const GrainArrays &grains)
-  {
-    Implementation &my = *implementation;
-    AssertThrow(grains.n() == my.n_grains, ExcDimensionMismatch(grains.n(), my.n_grains));
-    my.check_positions(grains);
-    my.n_rescued = 0;
-    if (!my.particles)
-      return;
-    // deal.II knows only the cells next to its own: who jumps farther is taken out here and put in again below
-    std::vector<Particles::ParticleIterator<2>> far;
-    for (auto particle = my.particles->begin(); particle != my.particles->end(); ++particle)
-      {
-        const auto i = my.number_of_id[particle->get_id()];
-        if (!my.are_neighbors(particle->get_surrounding_cell()->center(), Point<2>(grains.x[i], grains.y[i])))
-          {
-            far.push_back(particle);
-            continue;
-          }
-        particle->set_location(Point<2>(grains.x[i], grains.y[i]));
-        const auto values = particle->get_properties();
-        for (unsigned int p = 0; p < properties.size(); ++p)
-          values[p] = (grains.*properties[p])[i];
-      }
-    my.particles->remove_particles(far);
-    my.particles->sort_particles_into_subdomains_and_cells();
-    my.particles->update_cached_numbers();
-    if (my.particles->n_global_particles() != my.n_grains)
-      my.rescue(grains);
-  }
-
-
-  void GrainStore::rebalance()
-  {
-    Implementation &my = *implementation;
-    if (!my.particles)
-      return;
-    const GrainArrays         grains = gather();
-    std::vector<unsigned int> n_in_cell(my.my_cells.size(), 0);
-    for (std::size_t i = 0; i < grains.n(); ++i)
-      ++n_in_cell[my.cell_number(grains.x[i], grains.y[i])];
-
-    // the particles are put in anew, so nothing has to travel with the cells
-    my.particles->clear_particles();
-    const boost::signals2::scoped_connection connection =
-      my.grid.signals.weight.connect([&](const auto &cell, const auto) -> unsigned int {
-        return 1 + 10 * n_in_cell[my.cell_number(cell->center()[0], cell->center()[1])];
-      });
-    my.grid.repartition();
-    my.list_cells();
-    my.insert_all(grains);
-  }
-
-
-  void GrainStore::output(const std::function<void(DataOutInterface<0, 2> &)> &use) const
-  {
-    AssertThrow(implementation->particles, ExcNotInitialized());
-    GrainOutput output(*implementation->particles);
+    GrainOutput output(particles(), grains(), implementation->number_of_id);
     use(output);
-  }
-
-
-  void GrainStore::write_vtu(const std::string &file_name) const
-  {
-    output([&](DataOutInterface<0, 2> &data) {
-      DataOutBase::VtkFlags flags;
-      flags.compression_level = decltype(flags.compression_level)::best_speed;
-      data.set_flags(flags);
-      data.write_vtu_in_parallel(file_name, implementation->communicator);
-    });
-  }
-
-
-  const Particles::ParticleHandler<2> &GrainStore::particles() const
-  {
-    AssertThrow(implementation->particles, ExcNotInitialized());
-    return *implementation->particles;
   }
 } // namespace alluvium::grains

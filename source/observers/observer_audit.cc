@@ -1,5 +1,4 @@
 #include <alluvium/observers/observer.h>
-#include <alluvium/utilities/constants.h>
 
 #include <nlohmann/json.hpp>
 
@@ -43,7 +42,7 @@ namespace alluvium::observers
         for (std::size_t i = 0; i < s.grains.n(); ++i)
           if (!std::isinf(s.grains.mass[i]))
             weight += s.dt * std::hypot(s.gravity[0], s.gravity[1]) *
-                      std::abs(s.grains.mass[i] - density * pi * s.grains.fluid_radius[i] * s.grains.fluid_radius[i]);
+                      std::abs(s.grains.mass[i] - grains::disc_mass(density, s.grains.fluid_radius[i]));
       }
 
       void write(const Snapshot &s, output::Statistics &statistics) override
@@ -58,7 +57,8 @@ namespace alluvium::observers
             double      mean = 0., largest = 0., defect = 0.;
             for (std::size_t i = 0; i < std::min(s.grains.n(), v_star.size()); ++i)
               {
-                const double d = std::hypot(s.grains.vx[i] - v_star[i][0], s.grains.vy[i] - v_star[i][1]);
+                const double d =
+                  std::hypot(s.grains.velocity[0][i] - v_star[i][0], s.grains.velocity[1][i] - v_star[i][1]);
                 mean += d / s.grains.n();
                 largest = std::max(largest, d);
               }

@@ -34,7 +34,7 @@ namespace alluvium::observers
         double      fastest = 0., energy = 0.;
         for (std::size_t i = 0; i < g.n(); ++i)
           {
-            const double v2 = g.vx[i] * g.vx[i] + g.vy[i] * g.vy[i];
+            const double v2 = g.velocity[0][i] * g.velocity[0][i] + g.velocity[1][i] * g.velocity[1][i];
             fastest         = std::max(fastest, std::sqrt(v2));
             energy += 0.5 * (g.mass[i] * v2 + grains::disc_inertia(g.mass[i], g.radius[i]) * g.omega[i] * g.omega[i]);
           }

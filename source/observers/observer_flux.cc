@@ -1,8 +1,6 @@
 #include <alluvium/coupling/flow_totals.h>
 #include <alluvium/observers/observer.h>
 
-#include <deal.II/base/numbers.h>
-
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -55,8 +53,8 @@ namespace alluvium::observers
             {
               double volume_flux = totals.momentum[d] / s.fluid->solver.properties.density; // [m^3/s]
               for (std::size_t i = 0; i < s.grains.n(); ++i)
-                volume_flux += dealii::numbers::PI * s.grains.fluid_radius[i] * s.grains.fluid_radius[i] *
-                               (d == 0 ? s.grains.vx[i] : s.grains.vy[i]);
+                volume_flux += grains::disc_volume(s.grains.fluid_radius[i]) *
+                               (d == 0 ? s.grains.velocity[0][i] : s.grains.velocity[1][i]);
               const double flux                    = volume_flux / s.fluid->space.periodic_box().length[d];
               last[d == 0 ? "along_x" : "along_y"] = flux;
               statistics.set(along(d), flux);

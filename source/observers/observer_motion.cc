@@ -55,7 +55,8 @@ namespace alluvium::observers
         for (std::size_t i = 0; i < g.n(); ++i)
           {
             mass += g.mass[i];
-            if (std::hypot(g.x[i] - g.x0[i], g.y[i] - g.y0[i]) > threshold)
+            if (std::hypot(g.position[0][i] - g.initial_position[0][i], g.position[1][i] - g.initial_position[1][i]) >
+                threshold)
               moving += g.mass[i];
           }
         const double now  = mass > 0. ? moving / mass : 0.;

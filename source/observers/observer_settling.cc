@@ -2,7 +2,6 @@
 #include <alluvium/observers/observer.h>
 #include <alluvium/utilities/digits.h>
 
-#include <deal.II/base/numbers.h>
 #include <deal.II/base/parameter_handler.h>
 
 #include <cmath>
@@ -58,11 +57,11 @@ namespace alluvium::observers
         const auto         &force   = s.fluid->coupling.fluid_force(); // none yet at t = 0
         const double        density = s.fluid->solver.properties.density;
         for (std::size_t i = 0; i < g.n(); ++i)
-          if (g.y[i] > bottom && g.y[i] < top)
+          if (g.position[1][i] > bottom && g.position[1][i] < top)
             {
-              const double down   = (g.vx[i] * s.gravity[0] + g.vy[i] * s.gravity[1]) / size,
-                           across = (g.vx[i] * s.gravity[1] - g.vy[i] * s.gravity[0]) / size,
-                           v      = dealii::numbers::PI * g.fluid_radius[i] * g.fluid_radius[i];
+              const double down   = (g.velocity[0][i] * s.gravity[0] + g.velocity[1][i] * s.gravity[1]) / size,
+                           across = (g.velocity[0][i] * s.gravity[1] - g.velocity[1][i] * s.gravity[0]) / size,
+                           v      = grains::disc_volume(g.fluid_radius[i]);
               inside.resize(inside.n() + 1);
               inside.fluid_radius.back() = g.fluid_radius[i];
               inside.mass.back()         = g.mass[i];

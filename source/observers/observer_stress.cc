@@ -53,7 +53,7 @@ namespace alluvium::observers
         double                area = 0.;
         for (std::size_t k = 0; k < stresses.size(); ++k)
           {
-            const double a = M_PI * s.grains.radius[k] * s.grains.radius[k];
+            const double a = grains::disc_volume(s.grains.radius[k]);
             area += a;
             mean[0] += a * stresses[k][0];
             mean[1] += a * 0.5 * (stresses[k][1] + stresses[k][2]);
@@ -86,7 +86,7 @@ namespace alluvium::observers
                "NumberOfComponents=\"3\" format=\"ascii\">\n";
         for (const auto &f : forces)
           {
-            const double x = s.grains.x[f.i], y = s.grains.y[f.i];
+            const double x = s.grains.position[0][f.i], y = s.grains.position[1][f.i];
             out << x << ' ' << y << " 0 " << x + f.length * f.nx << ' ' << y + f.length * f.ny << " 0\n";
           }
         out << "</DataArray>\n</Points>\n<Lines>\n<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n";

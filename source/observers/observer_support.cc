@@ -1,6 +1,5 @@
 #include <alluvium/observers/observer.h>
 
-#include <deal.II/base/numbers.h>
 #include <deal.II/base/parameter_handler.h>
 
 #include <nlohmann/json.hpp>
@@ -59,7 +58,7 @@ namespace alluvium::observers
         double       weight = 0., area_fluid = 0., mass = 0.;
         for (std::size_t i = 0; i < g.n(); ++i)
           {
-            const double area = dealii::numbers::PI * g.fluid_radius[i] * g.fluid_radius[i];
+            const double area = grains::disc_volume(g.fluid_radius[i]);
             mass += g.mass[i];
             area_fluid += area;
             weight += (g.mass[i] - rho * area) * g_norm;

@@ -36,9 +36,10 @@ namespace alluvium::refinement
         const auto  &grains = *context.grains;
         for (std::size_t i = 0; i < grains.n(); ++i)
           {
-            const double    speed = std::hypot(grains.vx[i], grains.vy[i]);
-            const mesh::Box box =
-              mesh::widened({{{grains.x[i], grains.y[i]}}, {{grains.x[i], grains.y[i]}}}, grains.radius[i]);
+            const double    speed = std::hypot(grains.velocity[0][i], grains.velocity[1][i]);
+            const mesh::Box box   = mesh::widened(
+              {{{grains.position[0][i], grains.position[1][i]}}, {{grains.position[0][i], grains.position[1][i]}}},
+              grains.radius[i]);
             marks.add_if_above(speed, scale, box, size * context.grain_diameter);
           }
       }

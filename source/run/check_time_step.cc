@@ -3,8 +3,6 @@
 #include <alluvium/run/model.h>
 #include <alluvium/run/scene_numbers.h>
 
-#include <deal.II/base/numbers.h>
-
 #include <cmath>
 #include <sstream>
 
@@ -19,7 +17,7 @@ namespace alluvium::run
       if (!std::isinf(m.grains.mass[i]))
         {
           mass += m.grains.mass[i];
-          volume += dealii::numbers::PI * m.grains.fluid_radius[i] * m.grains.fluid_radius[i];
+          volume += grains::disc_volume(m.grains.fluid_radius[i]);
         }
     // that of the bed; of grains here and there, where there are most
     const double in_bed = find_scene_numbers(m, end_time).eps, eps = in_bed < 1. ? in_bed : m.coupling.report().eps_min;

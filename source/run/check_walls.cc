@@ -37,7 +37,7 @@ namespace alluvium::run
                        y0 = std::min(wall.a[1], wall.b[1]), y1 = std::max(wall.a[1], wall.b[1]);
           for (std::size_t k = 0; k < m.grains.n(); ++k)
             {
-              const double r = m.grains.radius[k], x = m.grains.x[k], y = m.grains.y[k];
+              const double r = m.grains.radius[k], x = m.grains.position[0][k], y = m.grains.position[1][k];
               if (x < x0 - 2. * r || x > x1 + 2. * r || y < y0 - 2. * r || y > y1 + 2. * r ||
                   grains::distance_to(wall, x, y) > 1.1 * r)
                 continue;

@@ -132,7 +132,7 @@ namespace alluvium::run
                 share,
                 largest_penetration,
                 "diameters",
-                {{m.grains.x[a], m.grains.y[a]}},
+                {{m.grains.position[0][a], m.grains.position[1][a]}},
                 "grain " + std::to_string(o.a),
                 more_room};
       }
@@ -154,7 +154,7 @@ namespace alluvium::run
             crush.depth,
             largest_penetration,
             "diameters",
-            {{m.grains.x[a], m.grains.y[a]}},
+            {{m.grains.position[0][a], m.grains.position[1][a]}},
             name,
             more_room};
   }

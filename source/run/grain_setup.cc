@@ -4,7 +4,6 @@
 #include <alluvium/utilities/digits.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/numbers.h>
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
 
@@ -180,15 +179,15 @@ namespace alluvium::run
     std::vector<double> densities(n);
     for (std::size_t i = 0; i < n; ++i)
       {
-        const double *s = &numbers[i * n_numbers];
-        grains.id[i]    = i;
-        grains.x[i] = grains.x0[i] = s[0];
-        grains.y[i] = grains.y0[i] = s[1];
-        grains.radius[i]           = s[2];
-        densities[i]               = s[3];
-        grains.vx[i]               = fixed_grains ? 0. : s[4];
-        grains.vy[i]               = fixed_grains ? 0. : s[5];
-        grains.omega[i]            = fixed_grains ? 0. : s[6];
+        const double *s       = &numbers[i * n_numbers];
+        grains.id[i]          = i;
+        grains.position[0][i] = grains.initial_position[0][i] = s[0];
+        grains.position[1][i] = grains.initial_position[1][i] = s[1];
+        grains.radius[i]                                      = s[2];
+        densities[i]                                          = s[3];
+        grains.velocity[0][i]                                 = fixed_grains ? 0. : s[4];
+        grains.velocity[1][i]                                 = fixed_grains ? 0. : s[5];
+        grains.omega[i]                                       = fixed_grains ? 0. : s[6];
         for (unsigned int d = 0; d < 2; ++d)
           check_user(s[d] >= domain.lower()[d] && s[d] <= domain.upper()[d],
                      "Grains: grain " + std::to_string(i) + " at (" + in_digits(s[0]) + ", " + in_digits(s[1]) +
@@ -208,7 +207,7 @@ namespace alluvium::run
       {
         grains.fluid_radius[i] = last_factor * grains.radius[i];
         const double r         = mass_follows == "fluid radius" ? grains.fluid_radius[i] : grains.radius[i];
-        grains.mass[i]         = densities[i] * numbers::PI * r * r;
+        grains.mass[i]         = grains::disc_mass(densities[i], r);
       }
     return grains;
   }

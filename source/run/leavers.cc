@@ -1,3 +1,4 @@
+#include <alluvium/grains/grain_columns.h>
 #include <alluvium/run/leavers.h>
 #include <alluvium/run/model.h>
 #include <alluvium/utilities/user_error.h>
@@ -28,7 +29,7 @@ namespace alluvium::run
       std::vector<std::string> result(m.grains.n());
       if (!m.domain.open_to_grains_names().empty())
         for (std::size_t i = 0; i < m.grains.n(); ++i)
-          result[i] = m.domain.left_through({{m.grains.x[i], m.grains.y[i]}});
+          result[i] = m.domain.left_through({{m.grains.position[0][i], m.grains.position[1][i]}});
       return result;
     }
   } // namespace
@@ -47,15 +48,15 @@ namespace alluvium::run
           if (std::find(open.begin(), open.end(), sides[i]) == open.end())
             {
               std::ostringstream text;
-              text << "Grain " << g.id[i] << " has gone through the wall '" << sides[i] << "': it is at (" << g.x[i]
-                   << ", " << g.y[i] << ") m. Try a smaller Time/Time step.";
+              text << "Grain " << g.id[i] << " has gone through the wall '" << sides[i] << "': it is at ("
+                   << g.position[0][i] << ", " << g.position[1][i] << ") m. Try a smaller Time/Time step.";
               throw UserError(text.str());
             }
           grains::Departure &d = m.leavers.by_side[sides[i]];
           d.n += 1;
           d.mass += g.mass[i];
-          d.momentum[0] += g.mass[i] * g.vx[i];
-          d.momentum[1] += g.mass[i] * g.vy[i];
+          d.momentum[0] += g.mass[i] * g.velocity[0][i];
+          d.momentum[1] += g.mass[i] * g.velocity[1][i];
         }
   }
 
@@ -69,13 +70,10 @@ namespace alluvium::run
       return false;
     auto &g = m.grains;
     keep_some(g.id, keep);
-    for (auto *values :
-         {&g.x, &g.y, &g.radius, &g.fluid_radius, &g.mass, &g.vx, &g.vy, &g.omega, &g.fcx, &g.fcy, &g.x0, &g.y0})
-      keep_some(*values, keep);
+    grains::for_each_column(g, [&](auto &values, const grains::GrainColumn &) { keep_some(values, keep); });
     keep_some(m.touched, keep);
     m.loads.reset(g.n());
     m.contacts.set_archive(m.contacts.archive()); // to be searched anew
-    m.store.replace(g);
     if (m.has_fluid)
       m.coupling.remove_grains(keep);
     return true;

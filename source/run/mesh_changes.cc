@@ -46,7 +46,8 @@ namespace alluvium::run
   void count_cell_weights(Model &m)
   {
     if (dealii::Utilities::MPI::n_mpi_processes(m.communicator) > 1)
-      m.cell_weights.count(m.grains.x, m.grains.y, m.coupling.reach(grains::mean_diameter(m.grains)));
+      m.cell_weights.count(
+        m.grains.position[0], m.grains.position[1], m.coupling.reach(grains::mean_diameter(m.grains)));
   }
 
 

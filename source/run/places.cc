@@ -67,8 +67,8 @@ namespace alluvium::run
     std::size_t k       = 0;
     for (std::size_t i = 0; i < g.n(); ++i)
       {
-        double square = g.vx[i] * g.vx[i] + g.vy[i] * g.vy[i];
-        if (!std::isfinite(square + g.x[i] + g.y[i]))
+        double square = g.velocity[0][i] * g.velocity[0][i] + g.velocity[1][i] * g.velocity[1][i];
+        if (!std::isfinite(square + g.position[0][i] + g.position[1][i]))
           square = std::numeric_limits<double>::max();
         if (square > fastest)
           {
@@ -78,7 +78,7 @@ namespace alluvium::run
       }
     if (g.n() == 0)
       return {};
-    return {{{g.x[k], g.y[k]}}, "grain " + std::to_string(g.id[k])};
+    return {{{g.position[0][k], g.position[1][k]}}, "grain " + std::to_string(g.id[k])};
   }
 
 

@@ -90,13 +90,13 @@ namespace alluvium::run
         const double gravity = m.gravity_size();
         double       mass = 0., volume = 0., contact_volume = 0., n = 0., all = 0.;
         for (const double r : g.fluid_radius)
-          all += numbers::PI * r * r;
+          all += grains::disc_volume(r);
         for (std::size_t i = 0; i < g.n(); ++i)
           if (!std::isinf(g.mass[i]))
             {
               mass += g.mass[i];
-              volume += numbers::PI * g.fluid_radius[i] * g.fluid_radius[i];
-              contact_volume += numbers::PI * g.radius[i] * g.radius[i];
+              volume += grains::disc_volume(g.fluid_radius[i]);
+              contact_volume += grains::disc_volume(g.radius[i]);
               n += 1.;
             }
         s.eps = s.bed.solid > 0. ? 1. - s.bed.fluid_fraction() : coupling::inner_void_fraction(g);

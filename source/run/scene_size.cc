@@ -2,8 +2,6 @@
 #include <alluvium/run/scene_size.h>
 #include <alluvium/utilities/user_error.h>
 
-#include <deal.II/base/numbers.h>
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -47,7 +45,7 @@ namespace alluvium::run
       return;
     double area = 0.;
     for (const double r : m.grains.radius)
-      area += dealii::numbers::PI * r * r;
+      area += grains::disc_volume(r);
     constexpr double hardly_a_grain = 1e-3;
     if (area > hardly_a_grain * width * height)
       return;

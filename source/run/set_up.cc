@@ -119,11 +119,11 @@ namespace alluvium::run
       if (m.has_fluid)
         for (std::size_t i = 0; i < m.grains.n(); ++i)
           {
-            const double volume    = numbers::PI * m.grains.fluid_radius[i] * m.grains.fluid_radius[i];
+            const double volume    = grains::disc_volume(m.grains.fluid_radius[i]);
             const double displaced = m.solver.properties.density * volume;
             const auto   excess    = m.solver.unsupported_weight();
-            m.loads.fx[i] -= displaced * m.gravity[0] - volume * excess[0];
-            m.loads.fy[i] -= displaced * m.gravity[1] - volume * excess[1];
+            m.loads.force[0][i] -= displaced * m.gravity[0] - volume * excess[0];
+            m.loads.force[1][i] -= displaced * m.gravity[1] - volume * excess[1];
           }
       const auto          memory        = m.contacts.memory();
       grains::GrainArrays trial         = m.grains;
@@ -135,8 +135,7 @@ namespace alluvium::run
       // moving walls start where they are said to; where none moves, the rest that was found is kept
       if (m.contacts.memory().wall_positions != memory.wall_positions)
         m.contacts.restore(memory);
-      m.grains.fcx = trial.fcx;
-      m.grains.fcy = trial.fcy;
+      m.grains.contact_force = trial.contact_force;
     }
   } // namespace
 
@@ -146,8 +145,8 @@ namespace alluvium::run
     m.loads.reset(m.grains.n());
     for (std::size_t i = 0; i < m.grains.n(); ++i)
       {
-        m.loads.fx[i] = m.grains.mass[i] * m.gravity[0];
-        m.loads.fy[i] = m.grains.mass[i] * m.gravity[1];
+        m.loads.force[0][i] = m.grains.mass[i] * m.gravity[0];
+        m.loads.force[1][i] = m.grains.mass[i] * m.gravity[1];
       }
   }
 
@@ -190,7 +189,7 @@ namespace alluvium::run
     m.store.let_leave(!m.leavers.by_side.empty());
     if (m.has_fluid)
       set_up_fluid(m, from);
-    m.store.initialize(m.grains, lower, upper, m.contacts.settings().skin * largest);
+    m.store.initialize(lower, upper, m.contacts.settings().skin * largest);
     if (m.grains_move && !from)
       try
         {

@@ -62,7 +62,7 @@ namespace alluvium::run
       double energy = 0., square = 0.;
       for (std::size_t i = 0; i < g.n(); ++i)
         {
-          const double v2 = g.vx[i] * g.vx[i] + g.vy[i] * g.vy[i];
+          const double v2 = g.velocity[0][i] * g.velocity[0][i] + g.velocity[1][i] * g.velocity[1][i];
           square          = std::max(square, v2);
           if (!std::isinf(g.mass[i]))
             energy += 0.5 * (g.mass[i] * v2 + grains::disc_inertia(g.mass[i], g.radius[i]) * g.omega[i] * g.omega[i]);
@@ -221,15 +221,15 @@ namespace alluvium::run
       {
         if (std::isinf(g.mass[i]))
           {
-            const double speed = std::hypot(g.vx[i], g.vy[i]);
-            prescribed += speed * std::hypot(g.fcx[i], g.fcy[i]);
+            const double speed = std::hypot(g.velocity[0][i], g.velocity[1][i]);
+            prescribed += speed * std::hypot(g.contact_force[0][i], g.contact_force[1][i]);
             if (m.has_fluid && speed > 0. && i < m.coupling.fluid_force().size())
               prescribed += speed * std::hypot(m.coupling.fluid_force()[i][0], m.coupling.fluid_force()[i][1]);
             continue;
           }
-        double dx = g.x[i] - x[i], dy = g.y[i] - y[i];
+        double dx = g.position[0][i] - x[i], dy = g.position[1][i] - y[i];
         periodicity.shorten(dx, dy);
-        const double volume = numbers::PI * g.fluid_radius[i] * g.fluid_radius[i], reduced = g.mass[i] - rho * volume;
+        const double volume = grains::disc_volume(g.fluid_radius[i]), reduced = g.mass[i] - rho * volume;
         work += reduced * (m.gravity[0] * dx + m.gravity[1] * dy) + volume * (excess[0] * dx + excess[1] * dy);
       }
     work += m.time_step * prescribed;
@@ -251,8 +251,8 @@ namespace alluvium::run
   void StepMeter::remember(const Model &m, const double kinetic_now)
   {
     kinetic = kinetic_now;
-    x       = m.grains.x;
-    y       = m.grains.y;
+    x       = m.grains.position[0];
+    y       = m.grains.position[1];
   }
 
 
@@ -276,7 +276,7 @@ namespace alluvium::run
         result.n_iterations   = m.coupling.report().n_iterations;
         double solid          = 0.;
         for (const double r : m.grains.fluid_radius)
-          solid += numbers::PI * r * r;
+          solid += grains::disc_volume(r);
         result.solid_lost     = solid > 0. ? 1. - sums[1] / solid : 0.;
         result.energy.sources = m.time_step * sums[2];
       }

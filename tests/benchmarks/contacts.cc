@@ -62,14 +62,14 @@ namespace
     {
       const std::size_t k = grains.n();
       grains.resize(k + 1);
-      grains.id[k]     = k;
-      grains.x[k]      = x;
-      grains.y[k]      = y;
-      grains.radius[k] = r;
-      grains.mass[k]   = density * M_PI * r * r;
-      grains.vx[k]     = vx;
-      grains.vy[k]     = vy;
-      grains.omega[k]  = omega;
+      grains.id[k]          = k;
+      grains.position[0][k] = x;
+      grains.position[1][k] = y;
+      grains.radius[k]      = r;
+      grains.mass[k]        = density * M_PI * r * r;
+      grains.velocity[0][k] = vx;
+      grains.velocity[1][k] = vy;
+      grains.omega[k]       = omega;
     }
   };
 
@@ -152,7 +152,7 @@ namespace
     double weight = 0., diameter = 0., mpi_before = 0.;
     for (std::size_t k = 0; k < g.n(); ++k)
       {
-        loads.fy[k] = -g.mass[k] * gravity;
+        loads.force[1][k] = -g.mass[k] * gravity;
         weight += g.mass[k] * gravity;
         diameter += 2. * g.radius[k] / g.n();
       }
@@ -169,23 +169,23 @@ namespace
         if (shake > 0. && s >= 0 && s % every == 0)
           for (std::size_t k = 0; k < g.n(); ++k)
             {
-              g.vx[k] = shake * (2. * (random() >> 11) * 0x1p-53 - 1.);
-              g.vy[k] = shake * (2. * (random() >> 11) * 0x1p-53 - 1.);
+              g.velocity[0][k] = shake * (2. * (random() >> 11) * 0x1p-53 - 1.);
+              g.velocity[1][k] = shake * (2. * (random() >> 11) * 0x1p-53 - 1.);
             }
         if (kick > 0. && s == 0)
           for (std::size_t k = 0; k < g.n(); ++k)
             if (random() % 20 == 0)
               {
                 const double angle = 2. * M_PI * (random() >> 11) * 0x1p-53;
-                g.vx[k]            = kick * std::cos(angle);
-                g.vy[k]            = kick * std::sin(angle);
+                g.velocity[0][k]   = kick * std::cos(angle);
+                g.velocity[1][k]   = kick * std::sin(angle);
               }
         if (fluidise > 0. && s >= 0)
           for (std::size_t k = 0; k < g.n(); ++k)
             {
-              const double wave = std::sin(4. * M_PI * g.x[k] / w + 20. * s * dt);
+              const double wave = std::sin(4. * M_PI * g.position[0][k] / w + 20. * s * dt);
               loads.drag[k]     = g.mass[k] / 1e-3;
-              loads.fy[k]       = g.mass[k] * gravity * fluidise * wave;
+              loads.force[1][k] = g.mass[k] * gravity * fluidise * wave;
             }
         const double t = cpu_seconds(), t_wall = MPI_Wtime();
         report = stepper.advance(g, loads, dt, {{0., -gravity}});
@@ -217,7 +217,13 @@ namespace
       // Waiting for other ranks takes CPU time, and on shared cores any time: what a rank computes is the rest.
       const ContactTraffic t    = stepper.traffic();
       std::uint64_t        bits = 0;
-      for (const auto *v : {&g.x, &g.y, &g.vx, &g.vy, &g.omega, &g.fcx, &g.fcy})
+      for (const auto *v : {&g.position[0],
+                            &g.position[1],
+                            &g.velocity[0],
+                            &g.velocity[1],
+                            &g.omega,
+                            &g.contact_force[0],
+                            &g.contact_force[1]})
         for (const double value : *v)
           {
             std::uint64_t word;
@@ -276,8 +282,9 @@ namespace
         {
           ContactPoint point;
           const double gap = list == &neighbours.pairs.discs ? touch(g, geometry.periodicity, p.i, p.j).gap
-                             : geometry.walls.touch(p.j, g.x[p.i], g.y[p.i], g.radius[p.i], point) ? point.gap
-                                                                                                   : reach;
+                             : geometry.walls.touch(p.j, g.position[0][p.i], g.position[1][p.i], g.radius[p.i], point)
+                               ? point.gap
+                               : reach;
           if (gap < 1e-3 * g.radius[p.i])
             {
               p.rn = 1.;
@@ -317,7 +324,7 @@ namespace
   ColdRun run_cold(const Bed &bed, const std::string &solver, const double dt, const std::string &set, const int sweeps)
   {
     GrainArrays g = bed.grains;
-    for (auto *v : {&g.vx, &g.vy, &g.omega})
+    for (auto *v : {&g.velocity[0], &g.velocity[1], &g.omega})
       std::fill(v->begin(), v->end(), 0.);
     ContactStepper           stepper;
     dealii::ParameterHandler prm;
@@ -334,7 +341,7 @@ namespace
     double weight = 0.;
     for (std::size_t k = 0; k < g.n(); ++k)
       {
-        loads.fy[k] = -g.mass[k] * gravity;
+        loads.force[1][k] = -g.mass[k] * gravity;
         weight += g.mass[k] * gravity;
       }
     const double t = cpu_seconds();
@@ -343,7 +350,7 @@ namespace
     run.seconds = cpu_seconds() - t;
     double sum  = 0.;
     for (std::size_t k = 0; k < g.n(); ++k)
-      sum += g.vx[k] * g.vx[k] + g.vy[k] * g.vy[k];
+      sum += g.velocity[0][k] * g.velocity[0][k] + g.velocity[1][k] * g.velocity[1][k];
     run.velocity = std::sqrt(sum / g.n()) / (gravity * dt);
     run.support  = 0.;
     for (const auto &[name, force] : run.report.wall_force)

@@ -76,14 +76,14 @@ namespace
       loads.reset(seeds.size());
       for (std::size_t k = 0; k < seeds.size(); ++k)
         {
-          const Seed &s    = seeds[k];
-          grains.id[k]     = static_cast<GrainId>(k);
-          grains.x[k]      = s.x;
-          grains.y[k]      = s.y;
-          grains.radius[k] = s.radius;
-          grains.mass[k]   = s.density * M_PI * s.radius * s.radius;
-          loads.fy[k]      = -grains.mass[k] * gravity;
-          weight -= loads.fy[k];
+          const Seed &s         = seeds[k];
+          grains.id[k]          = static_cast<GrainId>(k);
+          grains.position[0][k] = s.x;
+          grains.position[1][k] = s.y;
+          grains.radius[k]      = s.radius;
+          grains.mass[k]        = s.density * M_PI * s.radius * s.radius;
+          loads.force[1][k]     = -grains.mass[k] * gravity;
+          weight -= loads.force[1][k];
           diameter += 2. * s.radius / seeds.size();
         }
     }
@@ -94,7 +94,7 @@ namespace
     {
       double sum = 0.;
       for (std::size_t k = 0; k < grains.n(); ++k)
-        sum += grains.vx[k] * grains.vx[k] + grains.vy[k] * grains.vy[k];
+        sum += grains.velocity[0][k] * grains.velocity[0][k] + grains.velocity[1][k] * grains.velocity[1][k];
       return std::sqrt(sum / grains.n());
     }
   };
@@ -167,7 +167,9 @@ namespace
     int          n_moved = 0;
     for (std::size_t k = 0; k < before.n(); ++k)
       {
-        const double moved = std::hypot(bed.grains.x[k] - before.x[k], bed.grains.y[k] - before.y[k]) / bed.diameter;
+        const double moved = std::hypot(bed.grains.position[0][k] - before.position[0][k],
+                                        bed.grains.position[1][k] - before.position[1][k]) /
+                             bed.diameter;
         square += moved * moved;
         farthest = std::max(farthest, moved);
         n_moved += moved > 1e-3;

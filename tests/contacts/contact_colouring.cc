@@ -20,10 +20,10 @@ namespace
     grains.resize(n_x * n_y);
     for (unsigned int k = 0; k < grains.n(); ++k)
       {
-        grains.id[k]     = 3 * k + 1;
-        grains.x[k]      = (k % n_x + 0.5 * (k / n_x % 2)) * d;
-        grains.y[k]      = (0.5 + k / n_x * std::sqrt(0.75)) * d;
-        grains.radius[k] = 0.5 * d;
+        grains.id[k]          = 3 * k + 1;
+        grains.position[0][k] = (k % n_x + 0.5 * (k / n_x % 2)) * d;
+        grains.position[1][k] = (0.5 + k / n_x * std::sqrt(0.75)) * d;
+        grains.radius[k]      = 0.5 * d;
       }
     return grains;
   }
@@ -76,10 +76,10 @@ TEST(ContactColouring, DoesNotDependOnTheNumbering)
   const std::size_t n        = grains.n();
   for (std::size_t k = 0; k < n; ++k)
     {
-      const std::size_t from = (47 * k + 11) % n;
-      shuffled.id[k]         = grains.id[from];
-      shuffled.x[k]          = grains.x[from];
-      shuffled.y[k]          = grains.y[from];
+      const std::size_t from  = (47 * k + 11) % n;
+      shuffled.id[k]          = grains.id[from];
+      shuffled.position[0][k] = grains.position[0][from];
+      shuffled.position[1][k] = grains.position[1][from];
     }
   ContactCandidates a = find_candidates(grains, floor(), 0.15 * d), b = find_candidates(shuffled, floor(), 0.15 * d);
   const auto        colours_a = colours(grains, a), colours_b = colours(shuffled, b);
@@ -96,10 +96,10 @@ TEST(ContactColouring, ManyNeighbours)
   grains.radius[n] = n * d / (2. * M_PI);
   for (unsigned int k = 0; k < n; ++k)
     {
-      const double a   = 2. * M_PI * k / n;
-      grains.radius[k] = 0.45 * d;
-      grains.x[k]      = (grains.radius[n] + 0.5 * d) * std::cos(a);
-      grains.y[k]      = (grains.radius[n] + 0.5 * d) * std::sin(a);
+      const double a        = 2. * M_PI * k / n;
+      grains.radius[k]      = 0.45 * d;
+      grains.position[0][k] = (grains.radius[n] + 0.5 * d) * std::cos(a);
+      grains.position[1][k] = (grains.radius[n] + 0.5 * d) * std::sin(a);
     }
   for (unsigned int k = 0; k <= n; ++k)
     grains.id[k] = k;

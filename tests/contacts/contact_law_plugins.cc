@@ -45,15 +45,15 @@ TEST(StaticKineticLaw, BlockStartsAtTheStaticAngleAndSlidesWithKineticFriction)
   const double angle = std::atan(mu_k * ratio), dt = 1e-4;
   Block        below(angle - 1e-6), above(angle + 1e-6);
   below.step(dt, 300);
-  EXPECT_NEAR(below.grains.vx[0], 0., 1e-15);
-  EXPECT_NEAR(below.grains.x[0], 0., 1e-15);
+  EXPECT_NEAR(below.grains.velocity[0][0], 0., 1e-15);
+  EXPECT_NEAR(below.grains.position[0][0], 0., 1e-15);
 
   above.step(dt, 900);
-  EXPECT_GT(above.grains.vx[0], 40. * v_0);
-  const double before = above.grains.vx[0];
+  EXPECT_GT(above.grains.velocity[0][0], 40. * v_0);
+  const double before = above.grains.velocity[0][0];
   above.step(dt, 100);
   const double a = g * (std::sin(angle + 1e-6) - mu_k * std::cos(angle + 1e-6));
-  EXPECT_NEAR(above.grains.vx[0] - before, 100 * dt * a, 1e-10 * before);
+  EXPECT_NEAR(above.grains.velocity[0][0] - before, 100 * dt * a, 1e-10 * before);
 }
 
 TEST(StaticKineticLaw, BetweenTheAnglesABlockStaysAtRestOrGoesOn)
@@ -61,15 +61,15 @@ TEST(StaticKineticLaw, BetweenTheAnglesABlockStaysAtRestOrGoesOn)
   const double angle = std::atan(0.5 * mu_k * (1. + ratio)), dt = 1e-4;
   Block        at_rest(angle), pushed(angle, 10. * v_0), nudged(angle, 0.1 * v_0);
   at_rest.step(dt, 100);
-  EXPECT_NEAR(at_rest.grains.vx[0], 0., 1e-15);
+  EXPECT_NEAR(at_rest.grains.velocity[0][0], 0., 1e-15);
   nudged.step(dt, 100);
-  EXPECT_NEAR(nudged.grains.vx[0], 0., 1e-15);
+  EXPECT_NEAR(nudged.grains.velocity[0][0], 0., 1e-15);
   double v = 10. * v_0;
   for (int s = 0; s < 100; ++s)
     {
       v += dt * g * (std::sin(angle) - mu(v) * std::cos(angle));
       pushed.step(dt);
-      ASSERT_NEAR(pushed.grains.vx[0], v, 1e-11 * v);
+      ASSERT_NEAR(pushed.grains.velocity[0][0], v, 1e-11 * v);
     }
   EXPECT_GT(v, 12. * v_0);
 }
@@ -81,7 +81,7 @@ TEST(StaticKineticLaw, BeltsCount)
       Block        s(0., 0., belt);
       const double dt = 1e-5; // too short to catch up with the belt
       s.step(dt);
-      EXPECT_NEAR(s.grains.vx[0], dt * mu(belt) * g, 1e-12 * v_0);
+      EXPECT_NEAR(s.grains.velocity[0][0], dt * mu(belt) * g, 1e-12 * v_0);
     }
 }
 
@@ -96,12 +96,12 @@ TEST(StaticKineticLaw, SpinCounts)
       s.grains.mass[0]  = std::numeric_limits<double>::infinity();
       s.grains.omega[1] = spin / r;
       const double dt = 1e-6, m = s.grains.mass[1];
-      s.loads.fx = {0., 0.};
-      s.loads.fy = {0., -m * g};
+      s.loads.force[0] = {0., 0.};
+      s.loads.force[1] = {0., -m * g};
       s.loads.drag.assign(2, 0.);
       s.stepper.advance(s.grains, s.loads, dt, {{0., -g}});
-      EXPECT_NEAR(s.grains.fcy[1], m * g, 1e-10 * m * g);
-      EXPECT_NEAR(std::abs(s.grains.fcx[1]), mu(spin) * m * g, 1e-10 * m * g);
+      EXPECT_NEAR(s.grains.contact_force[1][1], m * g, 1e-10 * m * g);
+      EXPECT_NEAR(std::abs(s.grains.contact_force[0][1]), mu(spin) * m * g, 1e-10 * m * g);
       EXPECT_NEAR(s.grains.omega[1] * r, spin - std::copysign(2. * dt * mu(spin) * g, spin), 1e-10 * v_0);
     }
 }
@@ -124,8 +124,8 @@ TEST(StaticKineticLaw, WithoutAStepItIsCoulombs)
       s->step(2e-4, 200);
     }
   EXPECT_GT(coulomb.report.n_contacts, 20u);
-  EXPECT_EQ(coulomb.grains.x, other.grains.x);
-  EXPECT_EQ(coulomb.grains.vy, other.grains.vy);
+  EXPECT_EQ(coulomb.grains.position[0], other.grains.position[0]);
+  EXPECT_EQ(coulomb.grains.velocity[1], other.grains.velocity[1]);
   EXPECT_EQ(coulomb.grains.omega, other.grains.omega);
 }
 

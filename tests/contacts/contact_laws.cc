@@ -26,8 +26,8 @@ namespace
   /** One step with forces (fx, fy) on the grains, instead of gravity. */
   void step_with(Scene &s, const double dt, const std::vector<double> &fx, const std::vector<double> &fy)
   {
-    s.loads.fx = fx;
-    s.loads.fy = fy;
+    s.loads.force[0] = fx;
+    s.loads.force[1] = fy;
     s.loads.drag.assign(s.grains.n(), 0.);
     s.report = s.stepper.advance(s.grains, s.loads, dt, {{0., 0.}});
   }
@@ -70,7 +70,7 @@ TEST(RollingFriction, DiscOnIncline)
       s.add(0., r);
       s.step(1e-4, 100);
       const double expected = slope < mu_r ? 0. : 2. / 3. * (std::sin(a) - mu_r * std::cos(a)) * g * 1e-2;
-      EXPECT_NEAR(s.grains.vx[0], expected, 1e-10) << slope;
+      EXPECT_NEAR(s.grains.velocity[0][0], expected, 1e-10) << slope;
       EXPECT_NEAR(r * s.grains.omega[0], -expected, 1e-10) << slope;
     }
 }
@@ -112,22 +112,27 @@ TEST(RollingFriction, WithSlidingFrictionConverges)
     double l = 0.;
     for (int k = 0; k < 2; ++k)
       l += disc_inertia(s.grains.mass[k], s.grains.radius[k]) * s.grains.omega[k] +
-           s.grains.mass[k] * (s.grains.x[k] * s.grains.vy[k] - s.grains.y[k] * s.grains.vx[k]);
+           s.grains.mass[k] *
+             (s.grains.position[0][k] * s.grains.velocity[1][k] - s.grains.position[1][k] * s.grains.velocity[0][k]);
     return l;
   };
   const double before = momentum();
   for (int k = 0; k < 3000; ++k)
     {
       // along the line of centres, so that no outer moment acts
-      const double dx = s.grains.x[1] - s.grains.x[0], dy = s.grains.y[1] - s.grains.y[0], l = std::hypot(dx, dy);
+      const double dx = s.grains.position[0][1] - s.grains.position[0][0],
+                   dy = s.grains.position[1][1] - s.grains.position[1][0], l = std::hypot(dx, dy);
       step_with(s, 1e-5, {dx / l, -dx / l}, {dy / l, -dy / l});
       ASSERT_EQ(s.report.n_unconverged, 0u);
       ASSERT_LE(s.report.residual, 1e-12);
       EXPECT_NEAR(momentum(), before, 2e-3 * before); // the line of centres turns a little within each step
     }
   // neither slides nor rolls: one rigid body
-  const double dx = s.grains.x[1] - s.grains.x[0], dy = s.grains.y[1] - s.grains.y[0], l = std::hypot(dx, dy);
-  const double turn = ((s.grains.vy[1] - s.grains.vy[0]) * dx - (s.grains.vx[1] - s.grains.vx[0]) * dy) / (l * l);
+  const double dx = s.grains.position[0][1] - s.grains.position[0][0],
+               dy = s.grains.position[1][1] - s.grains.position[1][0], l = std::hypot(dx, dy);
+  const double turn = ((s.grains.velocity[1][1] - s.grains.velocity[1][0]) * dx -
+                       (s.grains.velocity[0][1] - s.grains.velocity[0][0]) * dy) /
+                      (l * l);
   EXPECT_NEAR(s.grains.omega[0], s.grains.omega[1], 1e-3 * std::abs(turn));
   EXPECT_NEAR(s.grains.omega[0], turn, 1e-3 * std::abs(turn));
 }
@@ -147,7 +152,7 @@ TEST(SingleWalls, FrictionAndRestitution)
         {{{{-1., 0.}}, {{0., 0.}}, {{0., 0.}}, "smooth"}, {{{0., 0.}}, {{1., 0.}}, {{0., 0.}}, "rough"}});
       s.add(rough ? 0.5 : -0.5, r);
       s.step(1e-4, 10);
-      EXPECT_NEAR(s.grains.vx[0], rough ? 0. : (std::sin(a) - 0.3 * std::cos(a)) * g * 1e-3, 1e-12);
+      EXPECT_NEAR(s.grains.velocity[0][0], rough ? 0. : (std::sin(a) - 0.3 * std::cos(a)) * g * 1e-3, 1e-12);
     }
 
   Scene s;
@@ -157,9 +162,9 @@ TEST(SingleWalls, FrictionAndRestitution)
     {{{{-1., 0.}}, {{1., 0.}}, {{0., 0.}}, "floor"}, {{{-1., 5 * d}}, {{1., 5 * d}}, {{0., 0.}}, "lid"}});
   s.add(0., 2 * d, 0., 1.);
   s.step(1e-4, 50);
-  EXPECT_NEAR(s.grains.vy[0], -0.5, 1e-12);
+  EXPECT_NEAR(s.grains.velocity[1][0], -0.5, 1e-12);
   s.step(1e-4, 80);
-  EXPECT_NEAR(s.grains.vy[0], 0.4, 1e-12);
+  EXPECT_NEAR(s.grains.velocity[1][0], 0.4, 1e-12);
 }
 
 TEST(SingleWalls, UnknownNamesAreRefused)
@@ -188,17 +193,17 @@ TEST(Cohesion, PullOff)
       s.add(d, 0.);
       const double m = s.grains.mass[0];
       step_with(s, dt, {-pull * c, pull * c}, {0., 0.});
-      EXPECT_NEAR(s.grains.vx[1], pull < 1. ? 0. : (pull - 1.) * c * dt / m, 1e-12) << pull;
-      EXPECT_NEAR(s.grains.fcx[1] / c, pull < 1. ? -pull : -1., 1e-10) << pull;
+      EXPECT_NEAR(s.grains.velocity[0][1], pull < 1. ? 0. : (pull - 1.) * c * dt / m, 1e-12) << pull;
+      EXPECT_NEAR(s.grains.contact_force[0][1] / c, pull < 1. ? -pull : -1., 1e-10) << pull;
       for (int k = 0; k < 99; ++k)
         step_with(s, dt, {-pull * c, pull * c}, {0., 0.});
       if (pull < 1.)
-        EXPECT_NEAR(s.grains.x[1] - s.grains.x[0], d, 1e-10 * d) << pull;
+        EXPECT_NEAR(s.grains.position[0][1] - s.grains.position[0][0], d, 1e-10 * d) << pull;
       else
         {
           // free from the second step on
-          EXPECT_NEAR(s.grains.vx[1], ((pull - 1.) + 99. * pull) * c * dt / m, 1e-10) << pull;
-          EXPECT_EQ(s.grains.fcx[1], 0.);
+          EXPECT_NEAR(s.grains.velocity[0][1], ((pull - 1.) + 99. * pull) * c * dt / m, 1e-10) << pull;
+          EXPECT_EQ(s.grains.contact_force[0][1], 0.);
         }
     }
 }
@@ -219,15 +224,15 @@ TEST(Cohesion, DiscsHangFromAWall)
       s.step(1e-4, 100);
       if (c > 2.)
         {
-          EXPECT_NEAR(s.grains.y[0] / r, -1., 1e-9);
-          EXPECT_NEAR(s.grains.y[1] / r, -3., 1e-9);
+          EXPECT_NEAR(s.grains.position[1][0] / r, -1., 1e-9);
+          EXPECT_NEAR(s.grains.position[1][1] / r, -3., 1e-9);
           EXPECT_NEAR(s.report.wall_force["ceiling"][1] / mg, -2., 1e-9);
-          EXPECT_NEAR(s.grains.fcy[1] / mg, 1., 1e-9);
+          EXPECT_NEAR(s.grains.contact_force[1][1] / mg, 1., 1e-9);
         }
       else
         {
-          EXPECT_LT(s.grains.vy[0], -0.9 * g * 1e-2);
-          EXPECT_NEAR(s.grains.y[1] - s.grains.y[0], -d, 1e-9 * d); // the two stay together
+          EXPECT_LT(s.grains.velocity[1][0], -0.9 * g * 1e-2);
+          EXPECT_NEAR(s.grains.position[1][1] - s.grains.position[1][0], -d, 1e-9 * d); // the two stay together
         }
     }
 }
@@ -246,8 +251,8 @@ TEST(Cohesion, RaisesTheLimitOfFriction)
       s.stepper.set_walls({{{{0., -1.}}, {{0., 1.}}, {{0., 0.}}, "side"}});
       s.add(r, 0.);
       s.step(1e-4, 100);
-      EXPECT_NEAR(s.grains.vy[0], c > 2. ? 0. : -(1. - 0.5 * c) * g * 1e-2, 1e-10);
-      EXPECT_NEAR(s.grains.fcx[0] / mg, 0., 1e-9);
+      EXPECT_NEAR(s.grains.velocity[1][0], c > 2. ? 0. : -(1. - 0.5 * c) * g * 1e-2, 1e-10);
+      EXPECT_NEAR(s.grains.contact_force[0][0] / mg, 0., 1e-9);
     }
 }
 
@@ -271,7 +276,7 @@ TEST(Cohesion, LiquidBridge)
   int          n_pulled = 0;
   for (int k = 0; k < 150; ++k)
     {
-      const double gap = s->grains.x[1] - d;
+      const double gap = s->grains.position[0][1] - d;
       if (k == 50)
         {
           restarted.grains = first.grains;
@@ -279,21 +284,21 @@ TEST(Cohesion, LiquidBridge)
           s = &restarted;
         }
       step_with(*s, dt, {0., 0.}, {0., 0.});
-      ASSERT_NEAR(s->grains.fcx[1], gap <= reach ? -law(gap) : 0., 1e-12) << k;
+      ASSERT_NEAR(s->grains.contact_force[0][1], gap <= reach ? -law(gap) : 0., 1e-12) << k;
       n_pulled += gap <= reach;
     }
   EXPECT_NEAR(n_pulled * dt, reach / 0.01, 2. * dt);
-  EXPECT_GT(s->grains.x[1] - d, 1.4 * reach);
+  EXPECT_GT(s->grains.position[0][1] - d, 1.4 * reach);
 
-  s->grains.vx[1] = -0.01;
-  while (s->grains.x[1] - d > 0.02 * reach)
+  s->grains.velocity[0][1] = -0.01;
+  while (s->grains.position[0][1] - d > 0.02 * reach)
     {
       step_with(*s, dt, {0., 0.}, {0., 0.});
-      ASSERT_EQ(s->grains.fcx[1], 0.);
+      ASSERT_EQ(s->grains.contact_force[0][1], 0.);
     }
   for (int k = 0; k < 10; ++k)
     step_with(*s, dt, {0., 0.}, {0., 0.});
-  s->grains.vx[1] = 0.01;
+  s->grains.velocity[0][1] = 0.01;
   step_with(*s, dt, {0., 0.}, {0., 0.});
-  EXPECT_NEAR(s->grains.fcx[1], -0.02, 1e-6);
+  EXPECT_NEAR(s->grains.contact_force[0][1], -0.02, 1e-6);
 }

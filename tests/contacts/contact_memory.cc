@@ -30,7 +30,7 @@ namespace
     const ContactMemory memory = twice.stepper.memory();
     twice.gx                   = 3. * test::g;
     twice.step(1e-3);
-    EXPECT_GT(std::abs(twice.grains.x[0] - start.x[0]), 1e-9);
+    EXPECT_GT(std::abs(twice.grains.position[0][0] - start.position[0][0]), 1e-9);
     twice.grains = start;
     twice.gx     = 0.;
     twice.stepper.restore(memory);
@@ -39,9 +39,9 @@ namespace
     EXPECT_EQ(once.stepper.walls()[0].a[1], twice.stepper.walls()[0].a[1]);
     for (std::size_t k = 0; k < start.n(); ++k)
       {
-        EXPECT_NEAR(once.grains.vx[k], twice.grains.vx[k], tolerance) << parameters;
-        EXPECT_NEAR(once.grains.vy[k], twice.grains.vy[k], tolerance) << parameters;
-        EXPECT_NEAR(once.grains.x[k], twice.grains.x[k], 1e-3 * tolerance);
+        EXPECT_NEAR(once.grains.velocity[0][k], twice.grains.velocity[0][k], tolerance) << parameters;
+        EXPECT_NEAR(once.grains.velocity[1][k], twice.grains.velocity[1][k], tolerance) << parameters;
+        EXPECT_NEAR(once.grains.position[0][k], twice.grains.position[0][k], 1e-3 * tolerance);
       }
   }
 } // namespace

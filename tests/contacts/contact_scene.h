@@ -36,13 +36,13 @@ namespace alluvium::contacts::test
     {
       const std::size_t k = grains.n();
       grains.resize(k + 1);
-      grains.id[k]     = static_cast<GrainId>(10 * k + 3); // ids are not indices
-      grains.x[k]      = x;
-      grains.y[k]      = y;
-      grains.radius[k] = radius;
-      grains.mass[k]   = density * M_PI * radius * radius;
-      grains.vx[k]     = vx;
-      grains.vy[k]     = vy;
+      grains.id[k]          = static_cast<GrainId>(10 * k + 3); // ids are not indices
+      grains.position[0][k] = x;
+      grains.position[1][k] = y;
+      grains.radius[k]      = radius;
+      grains.mass[k]        = density * M_PI * radius * radius;
+      grains.velocity[0][k] = vx;
+      grains.velocity[1][k] = vy;
       return k;
     }
 
@@ -64,12 +64,12 @@ namespace alluvium::contacts::test
         {
           if (loads.drag.size() != grains.n())
             loads.drag.assign(grains.n(), 0.);
-          loads.fx.resize(grains.n());
-          loads.fy.resize(grains.n());
+          loads.force[0].resize(grains.n());
+          loads.force[1].resize(grains.n());
           for (std::size_t k = 0; k < grains.n(); ++k)
             {
-              loads.fx[k] = grains.mass[k] * gx;
-              loads.fy[k] = grains.mass[k] * gy;
+              loads.force[0][k] = grains.mass[k] * gx;
+              loads.force[1][k] = grains.mass[k] * gy;
             }
           report = stepper.advance(grains, loads, dt, {{gx, gy}});
         }
@@ -80,7 +80,7 @@ namespace alluvium::contacts::test
       double e = 0.;
       for (std::size_t k = 0; k < grains.n(); ++k)
         e += 0.5 * grains.mass[k] *
-             (grains.vx[k] * grains.vx[k] + grains.vy[k] * grains.vy[k] +
+             (grains.velocity[0][k] * grains.velocity[0][k] + grains.velocity[1][k] * grains.velocity[1][k] +
               0.5 * std::pow(grains.radius[k] * grains.omega[k], 2));
       return e;
     }
@@ -89,7 +89,7 @@ namespace alluvium::contacts::test
     {
       double e = kinetic_energy();
       for (std::size_t k = 0; k < grains.n(); ++k)
-        e -= grains.mass[k] * (gx * grains.x[k] + gy * grains.y[k]);
+        e -= grains.mass[k] * (gx * grains.position[0][k] + gy * grains.position[1][k]);
       return e;
     }
 

@@ -31,7 +31,7 @@ TEST(MovingWalls, RotationIsExact)
   const double a = 10. * d, c = std::cos(1.), sn = std::sin(1.);
   EXPECT_NEAR(wall.a[0], -c * a + sn * a, 1e-12);
   EXPECT_NEAR(wall.a[1], -sn * a - c * a, 1e-12);
-  EXPECT_EQ(s.grains.vx[0], 0.);
+  EXPECT_EQ(s.grains.velocity[0][0], 0.);
 }
 
 // A paddle gives a disc the speed that it has where it touches.
@@ -45,15 +45,15 @@ TEST(MovingWalls, PaddlePushes)
   s.stepper.set_walls({{{{0., 0.}}, {{20. * d, 0.}}, {{0., 0.}}, "paddle", 3., {{0., 0.}}}});
   s.add(12. * d, r);
   s.step(1e-5);
-  EXPECT_NEAR(s.grains.vy[0], 3. * 12. * d, 1e-12);
-  EXPECT_NEAR(s.grains.vx[0], 0., 1e-12);
+  EXPECT_NEAR(s.grains.velocity[1][0], 3. * 12. * d, 1e-12);
+  EXPECT_NEAR(s.grains.velocity[0][0], 0., 1e-12);
   // a translation of the centre adds to it
   s.stepper.set_walls({{{{0., 0.}}, {{20. * d, 0.}}, {{0., 0.2}}, "paddle", 3., {{0., 0.}}}});
-  s.grains.vy[0] = 0.;
-  s.grains.x[0]  = 12. * d;
-  s.grains.y[0]  = r;
+  s.grains.velocity[1][0] = 0.;
+  s.grains.position[0][0] = 12. * d;
+  s.grains.position[1][0] = r;
   s.step(1e-5);
-  EXPECT_NEAR(s.grains.vy[0], 0.2 + 3. * 12. * d, 1e-12);
+  EXPECT_NEAR(s.grains.velocity[1][0], 0.2 + 3. * 12. * d, 1e-12);
   EXPECT_NEAR(s.stepper.walls()[0].centre[1], 0.2e-5, 1e-18);
 }
 
@@ -74,7 +74,7 @@ TEST(MovingWalls, RestsInARotatingDrum)
       const int n       = static_cast<int>(std::lround(M_PI / spin / dt)); // half a turn
       s.step(dt, n);
       const double angle = spin * n * dt, x = l * std::sin(angle), y = -l * std::cos(angle);
-      error[level] = std::hypot(s.grains.x[0] - x, s.grains.y[0] - y) / d;
+      error[level] = std::hypot(s.grains.position[0][0] - x, s.grains.position[1][0] - y) / d;
       EXPECT_NEAR(s.grains.omega[0], spin, 0.01 * spin);
       const double force = std::hypot(s.report.wall_force["drum"][0], s.report.wall_force["drum"][1]);
       EXPECT_NEAR(force / (s.grains.mass[0] * spin * spin * l), 1., 0.02);
@@ -95,7 +95,7 @@ TEST(MovingWalls, CornersOfMovingWallsCountOnce)
   s.add(0., r);
   s.step(1e-4, 5);
   EXPECT_EQ(s.report.n_contacts, 1u);
-  EXPECT_NEAR(s.grains.vy[0], 0.1, 1e-9);
+  EXPECT_NEAR(s.grains.velocity[1][0], 0.1, 1e-9);
 }
 
 TEST(MovingWalls, ComeBackFromTheArchive)
@@ -118,7 +118,7 @@ TEST(MovingWalls, ComeBackFromTheArchive)
     return s.grains;
   };
   const GrainArrays whole = run(false), restarted = run(true);
-  EXPECT_EQ(whole.x, restarted.x);
-  EXPECT_EQ(whole.vy, restarted.vy);
+  EXPECT_EQ(whole.position[0], restarted.position[0]);
+  EXPECT_EQ(whole.velocity[1], restarted.velocity[1]);
   EXPECT_EQ(whole.omega, restarted.omega);
 }

@@ -47,12 +47,12 @@ TEST(Contacts, BounceBetweenWalls)
   for (int k = 0; k < 300; ++k)
     {
       s.step(1e-4);
-      if (std::abs(std::abs(s.grains.vy[0]) - speed) > 1e-12)
+      if (std::abs(std::abs(s.grains.velocity[1][0]) - speed) > 1e-12)
         {
           ++bounces;
           speed *= 0.8;
         }
-      ASSERT_NEAR(std::abs(s.grains.vy[0]), speed, 1e-12);
+      ASSERT_NEAR(std::abs(s.grains.velocity[1][0]), speed, 1e-12);
     }
   EXPECT_GE(bounces, 4);
 }
@@ -73,8 +73,8 @@ TEST(Contacts, BounceUnderGravityConverges)
       for (double t = 0.; t < 2. * std::sqrt(2. * h0 / g) * 1.1; t += dt)
         {
           s.step(dt);
-          up  = up || s.grains.vy[0] > 0.;
-          top = up ? std::max(top, s.grains.y[0] - r) : top;
+          up  = up || s.grains.velocity[1][0] > 0.;
+          top = up ? std::max(top, s.grains.position[1][0] - r) : top;
         }
       errors[level] = std::abs(top / h0 - 0.49);
     }
@@ -97,7 +97,7 @@ TEST(Contacts, BlockOnIncline)
       s.step(1e-4, 100);
       // tan 20 < 0.4 < tan 30
       const double expected = std::max(0., std::sin(a) - mu * std::cos(a)) * g * 1e-2;
-      EXPECT_NEAR(s.grains.vx[0], expected, 1e-10);
+      EXPECT_NEAR(s.grains.velocity[0][0], expected, 1e-10);
       EXPECT_EQ(s.grains.omega[0], 0.);
     }
 }
@@ -117,8 +117,8 @@ TEST(Contacts, DiscOnIncline)
       s.step(1e-4, 100);
       const bool   rolls    = std::tan(a) < 3. * mu;
       const double expected = (rolls ? 2. / 3. * std::sin(a) : std::sin(a) - mu * std::cos(a)) * g * 1e-2;
-      EXPECT_NEAR(s.grains.vx[0], expected, 1e-10) << degrees;
-      const double slip = s.grains.vx[0] + r * s.grains.omega[0];
+      EXPECT_NEAR(s.grains.velocity[0][0], expected, 1e-10) << degrees;
+      const double slip = s.grains.velocity[0][0] + r * s.grains.omega[0];
       EXPECT_EQ(slip > 1e-5, !rolls);
       EXPECT_LT(rolls ? std::abs(slip) : 0., 1e-10);
     }
@@ -132,13 +132,13 @@ TEST(Contacts, LaunchedDiscRollsAtTwoThirds)
   const double v0 = 0.1, mu = 0.4, dt = 1e-5, t_roll = v0 / (3. * mu * g);
   s.add(0., r, v0);
   double t = 0.;
-  while (s.grains.vx[0] + r * s.grains.omega[0] > 1e-9 && t < 1.)
+  while (s.grains.velocity[0][0] + r * s.grains.omega[0] > 1e-9 && t < 1.)
     {
       s.step(dt);
       t += dt;
     }
   EXPECT_NEAR(t, t_roll, 1.01 * dt);
-  EXPECT_NEAR(s.grains.vx[0], 2. / 3. * v0, 1e-10);
+  EXPECT_NEAR(s.grains.velocity[0][0], 2. / 3. * v0, 1e-10);
   EXPECT_NEAR(s.grains.omega[0], -2. / 3. * v0 / r, 1e-6);
 }
 
@@ -162,7 +162,7 @@ TEST(Contacts, Stack)
       }
   for (std::size_t k = 0; k < s.grains.n(); ++k)
     {
-      EXPECT_NEAR(s.grains.fcy[k] / mg, 1., 1e-8);
+      EXPECT_NEAR(s.grains.contact_force[1][k] / mg, 1., 1e-8);
       EXPECT_TRUE(s.stepper.touched()[k]);
     }
 }
@@ -207,8 +207,8 @@ TEST(Contacts, NewtonsCradle)
     s.add(k * 1.1 * d, 0., k == 0 ? 1. : 0.);
   s.step(2e-5, 100);
   for (int k = 0; k < 4; ++k)
-    EXPECT_NEAR(s.grains.vx[k], 0., 1e-10);
-  EXPECT_NEAR(s.grains.vx[4], 1., 1e-10);
+    EXPECT_NEAR(s.grains.velocity[0][k], 0., 1e-10);
+  EXPECT_NEAR(s.grains.velocity[0][4], 1., 1e-10);
 }
 
 // Three discs in a pyramid stand if mu between them is at least 2 - sqrt(3) = 0.2679 and with the ground a third of
@@ -229,9 +229,9 @@ TEST(Contacts, Pyramid)
       s.add(-r, r);
       s.add(r, r);
       s.add(0., r + std::sqrt(3.) * r);
-      const double top = s.grains.y[2];
+      const double top = s.grains.position[1][2];
       s.step(1e-4, 1000);
-      const double sunk = (top - s.grains.y[2]) / d;
+      const double sunk = (top - s.grains.position[1][2]) / d;
       if (stands)
         {
           EXPECT_LT(std::abs(sunk), 1e-4) << mu << ' ' << mu_ground;
@@ -254,11 +254,11 @@ TEST(Contacts, EffectiveMass)
   const double dt = 1e-4;
   s.loads.drag    = {3e3 * s.grains.mass[0], 7e3 * s.grains.mass[1]};
   s.step(dt);
-  EXPECT_NEAR(s.grains.vx[0], 0.3 / 1.3, 1e-14);
-  EXPECT_NEAR(s.grains.vy[0], (0.2 - dt * g) / 1.3, 1e-14);
-  EXPECT_NEAR(s.grains.vy[1], 0., 1e-12);
-  EXPECT_NEAR(s.grains.fcy[1] / (s.grains.mass[1] * g), 1., 1e-10);
-  EXPECT_EQ(s.grains.fcy[0], 0.);
+  EXPECT_NEAR(s.grains.velocity[0][0], 0.3 / 1.3, 1e-14);
+  EXPECT_NEAR(s.grains.velocity[1][0], (0.2 - dt * g) / 1.3, 1e-14);
+  EXPECT_NEAR(s.grains.velocity[1][1], 0., 1e-12);
+  EXPECT_NEAR(s.grains.contact_force[1][1] / (s.grains.mass[1] * g), 1., 1e-10);
+  EXPECT_EQ(s.grains.contact_force[1][0], 0.);
 
   // Two discs meet without bouncing: they go on with the mean of their free velocities, weighted with the effective
   // masses.
@@ -269,8 +269,8 @@ TEST(Contacts, EffectiveMass)
   p.add(d, 0., -0.02);
   p.loads.drag = {1e3 * p.grains.mass[0], 9e3 * p.grains.mass[1]};
   p.step(dt);
-  EXPECT_NEAR(p.grains.vx[0], (0.01 - 0.02) / (1.1 + 1.9), 1e-13);
-  EXPECT_NEAR(p.grains.vx[1], p.grains.vx[0], 1e-13);
+  EXPECT_NEAR(p.grains.velocity[0][0], (0.01 - 0.02) / (1.1 + 1.9), 1e-13);
+  EXPECT_NEAR(p.grains.velocity[0][1], p.grains.velocity[0][0], 1e-13);
 }
 
 TEST(Contacts, InfiniteMassStaysPut)
@@ -283,12 +283,12 @@ TEST(Contacts, InfiniteMassStaysPut)
   s.loads.drag = {0., 0.};
   for (int k = 0; k < 10; ++k)
     {
-      s.loads.fx = {0., 0.};
-      s.loads.fy = {0., -g * s.grains.mass[1]};
+      s.loads.force[0] = {0., 0.};
+      s.loads.force[1] = {0., -g * s.grains.mass[1]};
       s.stepper.advance(s.grains, s.loads, 1e-4, {{0., -g}});
     }
-  EXPECT_EQ(s.grains.vy[0], 0.);
-  EXPECT_NEAR(s.grains.vy[1], 0., 1e-12);
+  EXPECT_EQ(s.grains.velocity[1][0], 0.);
+  EXPECT_NEAR(s.grains.velocity[1][1], 0., 1e-12);
 }
 
 TEST(Contacts, MovingWalls)
@@ -299,7 +299,7 @@ TEST(Contacts, MovingWalls)
   belt.floor({{1., 0.}});
   belt.add(0., r);
   belt.step(1e-4, 10);
-  EXPECT_NEAR(belt.grains.vx[0], 0.4 * g * 1e-3, 1e-12);
+  EXPECT_NEAR(belt.grains.velocity[0][0], 0.4 * g * 1e-3, 1e-12);
   EXPECT_EQ(belt.stepper.walls()[0].a[0], -1.);
   // A piston lifts one.
   Scene piston;
@@ -307,8 +307,8 @@ TEST(Contacts, MovingWalls)
   piston.floor({{0., 0.1}});
   piston.add(0., r);
   piston.step(1e-4, 10);
-  EXPECT_NEAR(piston.grains.vy[0], 0.1, 1e-12);
-  EXPECT_NEAR(piston.grains.y[0], r + 1e-4, 1e-12);
+  EXPECT_NEAR(piston.grains.velocity[1][0], 0.1, 1e-12);
+  EXPECT_NEAR(piston.grains.position[1][0], r + 1e-4, 1e-12);
   EXPECT_NEAR(piston.stepper.walls()[0].a[1], 1e-4, 1e-15);
 }
 
@@ -413,7 +413,7 @@ TEST(Contacts, OverlapsOpenSlowly)
   EXPECT_LT(fastest, 3. * limit);
   EXPECT_LT(s.report.max_penetration, 1e-3 * d);
   EXPECT_LT(s.energy(), e0 + s.weight() * d);
-  EXPECT_GE(s.grains.y[0], 0.999 * r);
+  EXPECT_GE(s.grains.position[1][0], 0.999 * r);
 }
 
 TEST(Contacts, OverlapsAreFound)
@@ -455,10 +455,10 @@ TEST(Contacts, RepeatsBitByBitAlsoAfterARestart)
   const GrainArrays first = run(false), again = run(false), restarted = run(true);
   for (const GrainArrays *other : {&again, &restarted})
     {
-      EXPECT_EQ(first.x, other->x);
-      EXPECT_EQ(first.vy, other->vy);
+      EXPECT_EQ(first.position[0], other->position[0]);
+      EXPECT_EQ(first.velocity[1], other->velocity[1]);
       EXPECT_EQ(first.omega, other->omega);
-      EXPECT_EQ(first.fcx, other->fcx);
+      EXPECT_EQ(first.contact_force[0], other->contact_force[0]);
     }
 }
 
@@ -467,7 +467,7 @@ TEST(Contacts, NotANumberIsAnError)
   Scene s;
   s.floor();
   s.add(0., r);
-  s.grains.x[0] = std::nan("");
+  s.grains.position[0][0] = std::nan("");
   EXPECT_THROW(s.step(1e-4), std::runtime_error);
 }
 

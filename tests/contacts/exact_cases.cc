@@ -88,7 +88,7 @@ namespace
     const auto filled = [&] {
       double y = 0.;
       for (std::size_t k = 0; k < s.grains.n(); ++k)
-        y = std::max(y, s.grains.y[k] + s.grains.radius[k]);
+        y = std::max(y, s.grains.position[1][k] + s.grains.radius[k]);
       return y;
     };
     set_walls(0., filled(), 0.);
@@ -138,7 +138,7 @@ namespace
       {
         double above = 0.;
         for (std::size_t k = 0; k < s.grains.n(); ++k)
-          if (s.grains.y[k] > (l + 0.5) * layer)
+          if (s.grains.position[1][k] > (l + 0.5) * layer)
             above += s.grains.mass[k] * g;
         if (l < layers)
           {
@@ -172,8 +172,8 @@ TEST(ExactCases, BlockOnInclineThreshold)
         s.add(0., r);
         s.step(dt, 100);
         const double expected = off < 0. ? 0. : (std::sin(a) - mu * std::cos(a)) * g * 100. * dt;
-        EXPECT_NEAR(s.grains.vx[0], expected, 1e-14) << mu;
-        EXPECT_EQ(s.grains.vx[0] > 1e-11, off > 0.) << mu;
+        EXPECT_NEAR(s.grains.velocity[0][0], expected, 1e-14) << mu;
+        EXPECT_EQ(s.grains.velocity[0][0] > 1e-11, off > 0.) << mu;
         EXPECT_NEAR(s.report.wall_force["floor"][0] / s.weight(), std::min(std::sin(a), mu * std::cos(a)), 1e-10);
       }
 }
@@ -188,9 +188,9 @@ TEST(ExactCases, CradleWithGaps)
   for (int k = 0; k < 3; ++k)
     s.add(1.1 * k * d, 0., k == 0 ? 1. : 0.);
   s.step(2e-5, 100);
-  EXPECT_NEAR(s.grains.vx[0], 0., 1e-14);
-  EXPECT_NEAR(s.grains.vx[1], 0., 1e-14);
-  EXPECT_NEAR(s.grains.vx[2], 1., 1e-14);
+  EXPECT_NEAR(s.grains.velocity[0][0], 0., 1e-14);
+  EXPECT_NEAR(s.grains.velocity[0][1], 0., 1e-14);
+  EXPECT_NEAR(s.grains.velocity[0][2], 1., 1e-14);
 }
 
 // Balls that touch are hit at once, and Newton's law then has another answer than a chain of collisions. Four balls
@@ -206,15 +206,15 @@ TEST(ExactCases, CradleWithTouchingBalls)
     s.add((k < 3 ? k : 4) * d, 0., k == 0 ? 1. : 0.);
   const double before = s.kinetic_energy();
   s.step(2e-5);
-  EXPECT_NEAR(s.grains.vx[0], -1. / 3., 1e-10);
-  EXPECT_NEAR(s.grains.vx[1], 2. / 3., 1e-10);
-  EXPECT_NEAR(s.grains.vx[2], 2. / 3., 1e-10);
-  EXPECT_EQ(s.grains.vx[3], 0.);
+  EXPECT_NEAR(s.grains.velocity[0][0], -1. / 3., 1e-10);
+  EXPECT_NEAR(s.grains.velocity[0][1], 2. / 3., 1e-10);
+  EXPECT_NEAR(s.grains.velocity[0][2], 2. / 3., 1e-10);
+  EXPECT_EQ(s.grains.velocity[0][3], 0.);
   s.step(2e-5, 200);
-  EXPECT_NEAR(s.grains.vx[0], -1. / 3., 1e-10);
-  EXPECT_NEAR(s.grains.vx[1], 2. / 9., 1e-10);
-  EXPECT_NEAR(s.grains.vx[2], 2. / 9., 1e-10);
-  EXPECT_NEAR(s.grains.vx[3], 8. / 9., 1e-10);
+  EXPECT_NEAR(s.grains.velocity[0][0], -1. / 3., 1e-10);
+  EXPECT_NEAR(s.grains.velocity[0][1], 2. / 9., 1e-10);
+  EXPECT_NEAR(s.grains.velocity[0][2], 2. / 9., 1e-10);
+  EXPECT_NEAR(s.grains.velocity[0][3], 8. / 9., 1e-10);
   EXPECT_NEAR(s.kinetic_energy() / before, 1., 1e-10);
 }
 
@@ -248,16 +248,16 @@ TEST(ExactCases, LaunchedSlidingDisc)
   for (int k = 1; k <= n_slide; ++k)
     {
       s.step(dt);
-      ASSERT_NEAR(s.grains.vx[0], v0 - mu * g * k * dt, 1e-12);
+      ASSERT_NEAR(s.grains.velocity[0][0], v0 - mu * g * k * dt, 1e-12);
       ASSERT_NEAR(r * s.grains.omega[0], -2. * mu * g * k * dt, 1e-12);
     }
   s.step(dt);
-  EXPECT_NEAR(s.grains.vx[0], 2. / 3. * v0, 1e-12);
-  EXPECT_NEAR(s.grains.x[0], 5. / 18. * v0 * v0 / (mu * g), 2. * v0 * dt);
+  EXPECT_NEAR(s.grains.velocity[0][0], 2. / 3. * v0, 1e-12);
+  EXPECT_NEAR(s.grains.position[0][0], 5. / 18. * v0 * v0 / (mu * g), 2. * v0 * dt);
   s.step(1e-3, 1000);
-  EXPECT_NEAR(s.grains.vx[0], 2. / 3. * v0, 1e-10);
+  EXPECT_NEAR(s.grains.velocity[0][0], 2. / 3. * v0, 1e-10);
   EXPECT_NEAR(r * s.grains.omega[0], -2. / 3. * v0, 1e-10);
-  EXPECT_NEAR(s.grains.y[0], r, 1e-10 * d);
+  EXPECT_NEAR(s.grains.position[1][0], r, 1e-10 * d);
 }
 
 // A gas of discs in a box, far enough apart to meet two at a time: each impact keeps the energy at e = 1 without
@@ -342,7 +342,7 @@ TEST(ExactCases, BoulderOnTwoGrains)
         double weight = 0.;
         for (const double m : scene.grains.mass)
           weight += m * test::g;
-        const std::vector<double> y             = scene.grains.y;
+        const std::vector<double> y             = scene.grains.position[1];
         unsigned int              n_unconverged = 0;
         for (int step = 0; step < 20; ++step)
           {
@@ -358,6 +358,6 @@ TEST(ExactCases, BoulderOnTwoGrains)
             EXPECT_EQ(n_unconverged, 0u) << "ratio " << ratio << ", dt " << dt;
           }
         for (std::size_t k = 0; k < 3; ++k)
-          EXPECT_NEAR(scene.grains.y[k], y[k], 0.02 * small) << "ratio " << ratio << ", dt " << dt;
+          EXPECT_NEAR(scene.grains.position[1][k], y[k], 0.02 * small) << "ratio " << ratio << ", dt " << dt;
       }
 }

@@ -68,7 +68,7 @@ namespace
     {
       double inside = 1.;
       for (std::size_t c = 0; c < corners.size(); ++c)
-        inside = std::min(inside, distance(c, {{scene.grains.x[k], scene.grains.y[k]}}));
+        inside = std::min(inside, distance(c, {{scene.grains.position[0][k], scene.grains.position[1][k]}}));
       return inside;
     }
 
@@ -83,7 +83,7 @@ namespace
       // Without gravity, the speed is a part of the fastest grain's, or of the time step's.
       double fastest = 0.01 * smallest / dt;
       for (std::size_t k = 0; k < scene.grains.n(); ++k)
-        fastest = std::max(fastest, std::hypot(scene.grains.vx[k], scene.grains.vy[k]));
+        fastest = std::max(fastest, std::hypot(scene.grains.velocity[0][k], scene.grains.velocity[1][k]));
       const double pull = std::hypot(scene.gx, scene.gy), unit = pull > 0. ? std::sqrt(pull * smallest) : fastest,
                    push = scene.stepper.settings().push_out * unit;
       return sum == 0. ? 0. : 2. * scene.weight() * sum + 4. * mass * push * push;
@@ -149,13 +149,13 @@ namespace
               const auto   k     = static_cast<std::size_t>(random.uniform(0., grains.n()));
               const double reach = radius + grains.radius[k] - random.uniform(0., allowed(grains.radius[k])),
                            a     = random.uniform(0., 2. * M_PI);
-              p                  = {{grains.x[k] + reach * std::cos(a), grains.y[k] + reach * std::sin(a)}};
+              p = {{grains.position[0][k] + reach * std::cos(a), grains.position[1][k] + reach * std::sin(a)}};
             }
           bool free = true;
           for (std::size_t c = 0; free && c < corners.size(); ++c)
             free = distance(c, p) > radius - allowed(radius);
           for (std::size_t k = 0; free && k < grains.n(); ++k)
-            free = std::hypot(grains.x[k] - p[0], grains.y[k] - p[1]) >
+            free = std::hypot(grains.position[0][k] - p[0], grains.position[1][k] - p[1]) >
                    radius + grains.radius[k] - allowed(grains.radius[k]);
           for (const WallSegment &w : scene.stepper.walls())
             {
@@ -194,8 +194,8 @@ TEST(Fuzz, RandomScenes)
           highest = std::max(highest, s.energy());
           for (std::size_t k = 0; k < s.grains.n(); ++k)
             {
-              ASSERT_TRUE(
-                std::isfinite(s.grains.x[k] + s.grains.y[k] + s.grains.vx[k] + s.grains.vy[k] + s.grains.omega[k]));
+              ASSERT_TRUE(std::isfinite(s.grains.position[0][k] + s.grains.position[1][k] + s.grains.velocity[0][k] +
+                                        s.grains.velocity[1][k] + s.grains.omega[k]));
               ASSERT_GT(random.depth(k), 0.) << "grain " << k << " left the box in step " << step;
             }
         }
@@ -236,8 +236,8 @@ TEST(Fuzz, LockedWedge)
                 << restitution << ' ' << speed << ' ' << k;
             ASSERT_LT(s.energy(), start + 0.1 * s.weight() * d);
           }
-        EXPECT_GT(s.grains.y[0], 0.9 * r / std::sin(a));
-        EXPECT_LT(std::abs(s.grains.x[0]), 1e-3 * d);
+        EXPECT_GT(s.grains.position[1][0], 0.9 * r / std::sin(a));
+        EXPECT_LT(std::abs(s.grains.position[0][0]), 1e-3 * d);
       }
 }
 
@@ -256,7 +256,7 @@ TEST(Fuzz, ImpactWhileAnotherLeaves)
       const double before = s.kinetic_energy(), momentum = 2.5;
       s.step(2e-5);
       EXPECT_LE(s.kinetic_energy(), before * (1. + 1e-9)) << restitution;
-      EXPECT_NEAR(s.grains.vx[0] + s.grains.vx[1] + s.grains.vx[2], momentum, 1e-10);
+      EXPECT_NEAR(s.grains.velocity[0][0] + s.grains.velocity[0][1] + s.grains.velocity[0][2], momentum, 1e-10);
     }
 }
 

@@ -99,9 +99,9 @@ TEST(MovingWalls, ARigidWallMovesAlongItself)
       s.stepper.set_walls({up});
       s.add(-r, 0.);
       go_on(s, 1e-4, 0, 10);
-      EXPECT_EQ(s.grains.vy[0], 0.);
+      EXPECT_EQ(s.grains.velocity[1][0], 0.);
       go_on(s, 1e-4, 10, 20);
-      EXPECT_NEAR(s.grains.vy[0], 0.4 * g * 1e-3, 1e-12);
+      EXPECT_NEAR(s.grains.velocity[1][0], 0.4 * g * 1e-3, 1e-12);
       go_on(s, 1e-4, 20, 60);
       EXPECT_NEAR(s.stepper.walls()[0].a[1], -1. + (rigid ? 4e-4 : 0.), 1e-13);
       EXPECT_NEAR(s.stepper.walls()[0].b[1], 1. + (rigid ? 4e-4 : 0.), 1e-13);
@@ -123,7 +123,7 @@ TEST(MovingWalls, WhatVanishesWakesWhatItCarried)
   go_on(s, 1e-4, 0, 40);
   EXPECT_TRUE(s.report.at_rest); // before the other one moves
   go_on(s, 1e-4, 40, 100);
-  EXPECT_NEAR(s.grains.y[0], r, 1e-8);
+  EXPECT_NEAR(s.grains.position[1][0], r, 1e-8);
   EXPECT_NEAR(s.report.wall_force["wall"][1], -s.weight(), 1e-6 * s.weight());
   EXPECT_TRUE(s.stepper.walls()[0].present);
   ByteWriter writer;
@@ -138,10 +138,10 @@ TEST(MovingWalls, WhatVanishesWakesWhatItCarried)
     {
       go_on(*scene, 1e-4, 100, 150);
       EXPECT_FALSE(scene->stepper.walls()[0].present);
-      EXPECT_NEAR(scene->grains.vy[0], -g * 5e-3, 1e-9);
+      EXPECT_NEAR(scene->grains.velocity[1][0], -g * 5e-3, 1e-9);
       EXPECT_NEAR(scene->stepper.walls()[1].a[1], 1. + 0.1 * 0.011, 1e-13);
     }
-  EXPECT_EQ(s.grains.y, again.grains.y);
+  EXPECT_EQ(s.grains.position[1], again.grains.position[1]);
 }
 
 TEST(MovingWalls, WhatIsNotThereYetTouchesNothing)
@@ -153,7 +153,7 @@ TEST(MovingWalls, WhatIsNotThereYetTouchesNothing)
   s.stepper.set_walls({wall({{-1., 0.}}, {{1., 0.}}, lid)});
   s.add(0., r);
   go_on(s, 1e-4, 0, 10);
-  EXPECT_NEAR(s.grains.vy[0], -g * 1e-3, 1e-12);
+  EXPECT_NEAR(s.grains.velocity[1][0], -g * 1e-3, 1e-12);
   EXPECT_EQ(s.report.wall_force["wall"][1], 0.);
 }
 
@@ -201,7 +201,8 @@ TEST(MovingWalls, AFastBladeJumpsOverNothing)
   s.stepper.set_time(0.);
   s.step(5e-3); // 1 rad
   EXPECT_GT(s.report.n_substeps, 9u);
-  const double angle = std::atan2(s.grains.y[0], s.grains.x[0]), distance = std::hypot(s.grains.x[0], s.grains.y[0]);
+  const double angle    = std::atan2(s.grains.position[1][0], s.grains.position[0][0]),
+               distance = std::hypot(s.grains.position[0][0], s.grains.position[1][0]);
   EXPECT_GT(distance * std::sin(angle - 1.), 0.8 * r); // still before it
 }
 

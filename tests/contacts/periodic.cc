@@ -28,16 +28,16 @@ TEST(Periodic, CrossingKeepsMomentum)
   s.gy = 0.;
   s.stepper.set_periodicity(box(10. * d, 7. * d));
   s.add(d, d, 0.37, -0.21);
-  s.grains.x0[0] = d;
-  s.grains.y0[0] = d;
+  s.grains.initial_position[0][0] = d;
+  s.grains.initial_position[1][0] = d;
   s.step(1e-3, 200);
-  EXPECT_EQ(s.grains.vx[0], 0.37);
-  EXPECT_EQ(s.grains.vy[0], -0.21);
-  EXPECT_NEAR(s.grains.x[0] - s.grains.x0[0], 0.37 * 0.2, 1e-13);
-  EXPECT_NEAR(s.grains.y[0] - s.grains.y0[0], -0.21 * 0.2, 1e-13);
-  EXPECT_GE(s.grains.x[0], 0.);
-  EXPECT_LT(s.grains.x[0], 10. * d);
-  EXPECT_NEAR(s.grains.x[0], std::fmod(d + 0.37 * 0.2, 10. * d), 1e-13);
+  EXPECT_EQ(s.grains.velocity[0][0], 0.37);
+  EXPECT_EQ(s.grains.velocity[1][0], -0.21);
+  EXPECT_NEAR(s.grains.position[0][0] - s.grains.initial_position[0][0], 0.37 * 0.2, 1e-13);
+  EXPECT_NEAR(s.grains.position[1][0] - s.grains.initial_position[1][0], -0.21 * 0.2, 1e-13);
+  EXPECT_GE(s.grains.position[0][0], 0.);
+  EXPECT_LT(s.grains.position[0][0], 10. * d);
+  EXPECT_NEAR(s.grains.position[0][0], std::fmod(d + 0.37 * 0.2, 10. * d), 1e-13);
 }
 
 // Two discs meet across the side, head on without loss: they swap velocities.
@@ -52,7 +52,7 @@ TEST(Periodic, CollisionAcrossTheSide)
       in_y ? s.add(0., 0.7 * d, 0., -0.5) : s.add(0.7 * d, 0., -0.5);
       in_y ? s.add(0., 9. * d, 0., 0.25) : s.add(9. * d, 0., 0.25);
       s.step(1e-4, 20);
-      const auto &v = in_y ? s.grains.vy : s.grains.vx;
+      const auto &v = in_y ? s.grains.velocity[1] : s.grains.velocity[0];
       EXPECT_NEAR(v[0], 0.25, 1e-12);
       EXPECT_NEAR(v[1], -0.5, 1e-12);
     }
@@ -78,7 +78,7 @@ TEST(Periodic, CradleAcrossTheSide)
               in_y ? s.add(0., place, 0., v) : s.add(place, 0., v);
             }
           s.step(4.8e-4, 2);
-          return in_y ? s.grains.vy : s.grains.vx;
+          return in_y ? s.grains.velocity[1] : s.grains.velocity[0];
         };
         const std::vector<double> inside = run(5. * d);
         EXPECT_GT(inside[2], 0.); // the third has been hit
@@ -108,12 +108,12 @@ TEST(Periodic, RestOnTheSeam)
   const std::vector<std::uint8_t> touched(1, 1);
   for (unsigned int k = 0; k < rest.steps; ++k)
     {
-      grains.x[0] = k % 2 ? 0. : length * (1. - 1e-15);
-      grains.y[0] = k % 3 ? 0. : length * (1. - 1e-15);
+      grains.position[0][0] = k % 2 ? 0. : length * (1. - 1e-15);
+      grains.position[1][0] = k % 3 ? 0. : length * (1. - 1e-15);
       rest.watch(grains, loads, scales, touched, report);
     }
   EXPECT_TRUE(rest.holds(grains, loads, scales));
-  grains.x[0] = 0.5 * length;
+  grains.position[0][0] = 0.5 * length;
   EXPECT_FALSE(rest.holds(grains, loads, scales));
 }
 
@@ -131,15 +131,15 @@ TEST(Periodic, ShearOfAPair)
       s->add(x + 0.5 * d, 0., 0., v0);
       s->add(x == 0. ? 9.5 * d : x - 0.5 * d, 0., 0., -v0);
       s->loads.drag.assign(2, 0.);
-      s->loads.fx = {-force, force};
-      s->loads.fy = {0., 0.};
+      s->loads.force[0] = {-force, force};
+      s->loads.force[1] = {0., 0.};
     }
   const double m    = across.grains.mass[0];
   const auto   step = [&](Scene &s) { s.report = s.stepper.advance(s.grains, s.loads, dt, {{0., 0.}}); };
   step(across);
   step(inside);
-  EXPECT_NEAR(across.grains.vy[0], v0 - mu * force * dt / m, 1e-12);
-  EXPECT_NEAR(across.grains.vy[1], -v0 + mu * force * dt / m, 1e-12);
+  EXPECT_NEAR(across.grains.velocity[1][0], v0 - mu * force * dt / m, 1e-12);
+  EXPECT_NEAR(across.grains.velocity[1][1], -v0 + mu * force * dt / m, 1e-12);
   EXPECT_NEAR(r * across.grains.omega[0], 2. * mu * force * dt / m, 1e-12);
   EXPECT_NEAR(r * across.grains.omega[1], 2. * mu * force * dt / m, 1e-12);
   for (int k = 0; k < 200; ++k)
@@ -147,11 +147,11 @@ TEST(Periodic, ShearOfAPair)
       step(across);
       step(inside);
     }
-  EXPECT_LT(across.grains.vy[0], 0.9 * v0);
+  EXPECT_LT(across.grains.velocity[1][0], 0.9 * v0);
   for (int k = 0; k < 2; ++k)
     {
-      EXPECT_NEAR(across.grains.vx[k], inside.grains.vx[k], 1e-10);
-      EXPECT_NEAR(across.grains.vy[k], inside.grains.vy[k], 1e-10);
+      EXPECT_NEAR(across.grains.velocity[0][k], inside.grains.velocity[0][k], 1e-10);
+      EXPECT_NEAR(across.grains.velocity[1][k], inside.grains.velocity[1][k], 1e-10);
       EXPECT_NEAR(r * across.grains.omega[k], r * inside.grains.omega[k], 1e-10);
     }
 }
@@ -182,10 +182,10 @@ TEST(Periodic, FloorCarriesTheBed)
   double momentum = 0.;
   for (std::size_t k = 0; k < s.grains.n(); ++k)
     {
-      EXPECT_GE(s.grains.x[k], 0.);
-      EXPECT_LT(s.grains.x[k], width);
-      EXPECT_GT(s.grains.y[k], 0.9 * s.grains.radius[k]);
-      momentum += s.grains.mass[k] * s.grains.vx[k];
+      EXPECT_GE(s.grains.position[0][k], 0.);
+      EXPECT_LT(s.grains.position[0][k], width);
+      EXPECT_GT(s.grains.position[1][k], 0.9 * s.grains.radius[k]);
+      momentum += s.grains.mass[k] * s.grains.velocity[0][k];
     }
   EXPECT_TRUE(find_overlaps(s.grains, s.stepper.walls(), 2e-3 * d, box(width)).empty());
   EXPECT_LT(std::abs(momentum), 1e-6);
@@ -202,10 +202,10 @@ TEST(Periodic, SearchFindsAllPairs)
         grains.resize(n);
         for (std::size_t k = 0; k < n; ++k)
           {
-            grains.id[k]     = k;
-            grains.x[k]      = std::fmod(0.754877666 * (k + 1), 1.) * lx * d;
-            grains.y[k]      = std::fmod(0.569840291 * (k + 1), 1.) * (ly > 0. ? ly : 5.) * d;
-            grains.radius[k] = (0.3 + 0.2 * std::fmod(0.618 * k, 1.)) * d;
+            grains.id[k]          = k;
+            grains.position[0][k] = std::fmod(0.754877666 * (k + 1), 1.) * lx * d;
+            grains.position[1][k] = std::fmod(0.569840291 * (k + 1), 1.) * (ly > 0. ? ly : 5.) * d;
+            grains.radius[k]      = (0.3 + 0.2 * std::fmod(0.618 * k, 1.)) * d;
           }
         ContactGeometry geometry;
         geometry.periodicity          = box(lx * d, ly * d);
@@ -247,6 +247,6 @@ TEST(Periodic, ImagesOfWalls)
   s.stepper.set_walls(with_images(post, box(10. * d)));
   s.add(0.3 * d, 0.);
   s.step(1e-4, 10);
-  EXPECT_NEAR(s.grains.vx[0], 0., 1e-10);
+  EXPECT_NEAR(s.grains.velocity[0][0], 0., 1e-10);
   EXPECT_NEAR(s.report.wall_force["post"][0] / -s.weight(), 1., 1e-10);
 }

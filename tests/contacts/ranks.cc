@@ -1,9 +1,11 @@
 // The contact step on several ranks. Run under mpirun on 2, 3 and 4 of them; what needs no messages runs on one as
 // well.
 #include <alluvium/contacts/ranks/contact_partition.h>
+#include <alluvium/contacts/ranks/contact_share.h>
 #include <alluvium/contacts/ranks/ghost_exchange.h>
 #include <alluvium/contacts/search/contact_colouring.h>
 #include <alluvium/contacts/solvers/contact_problem.h>
+#include <alluvium/grains/grain_columns.h>
 
 #include "contact_scene.h"
 
@@ -63,15 +65,9 @@ namespace
   {
     const GrainArrays &a = alone.grains, &b = together.grains;
     const auto        &p = alone.report, &q = together.report;
-    ASSERT_EQ(a.x, b.x) << step;
-    ASSERT_EQ(a.y, b.y) << step;
-    ASSERT_EQ(a.vx, b.vx) << step;
-    ASSERT_EQ(a.vy, b.vy) << step;
-    ASSERT_EQ(a.omega, b.omega) << step;
-    ASSERT_EQ(a.fcx, b.fcx) << step;
-    ASSERT_EQ(a.fcy, b.fcy) << step;
-    ASSERT_EQ(a.x0, b.x0) << step;
-    ASSERT_EQ(a.y0, b.y0) << step;
+    for (const GrainColumn &column : grain_columns)
+      for (unsigned int c = 0; c < column.n_components; ++c)
+        ASSERT_EQ(column.values(a, c), column.values(b, c)) << column.name << ' ' << c << ", step " << step;
     ASSERT_EQ(alone.stepper.touched(), together.stepper.touched()) << step;
     ASSERT_EQ(p.wall_force, q.wall_force) << step;
     ASSERT_EQ(p.n_contacts, q.n_contacts) << step;
@@ -175,7 +171,8 @@ TEST(Ranks, BordersFitTogether)
   const unsigned int n_colours = colour_contacts(scene.grains, all);
   for (const unsigned int n : {2u, 3u, 5u})
     {
-      const auto owner = bisect(scene.grains.x, scene.grains.y, std::vector<std::uint32_t>(scene.grains.n(), 1), n);
+      const auto owner =
+        bisect(scene.grains.position[0], scene.grains.position[1], std::vector<std::uint32_t>(scene.grains.n(), 1), n);
       std::vector<ContactPartition> parts;
       for (unsigned int rank = 0; rank < n; ++rank)
         parts.push_back(make_partition(owner, all, n_colours, rank));
@@ -235,7 +232,8 @@ TEST(Ranks, GhostsAreKnown)
   ContactGeometry    geometry;
   ContactCandidates  all       = find_candidates(scene.grains, geometry, 0.5 * d);
   const unsigned int n_colours = colour_contacts(scene.grains, all);
-  const auto owner = bisect(scene.grains.x, scene.grains.y, std::vector<std::uint32_t>(scene.grains.n(), 1), n_ranks());
+  const auto         owner     = bisect(
+    scene.grains.position[0], scene.grains.position[1], std::vector<std::uint32_t>(scene.grains.n(), 1), n_ranks());
   const ContactPartition part = make_partition(owner, all, n_colours, my_rank());
   GhostExchange          exchange(MPI_COMM_WORLD);
   exchange.set_borders(part.borders);
@@ -265,6 +263,52 @@ TEST(Ranks, GhostsAreKnown)
   EXPECT_EQ(value, n_ranks());
 }
 
+// A rank's share has all columns of its grains and ghosts, and brings back those that a step changes.
+TEST(Ranks, SharesHaveAllColumns)
+{
+  Scene scene;
+  throw_in(scene, 12, 9);
+  GrainArrays &all    = scene.grains;
+  double       number = 0.;
+  for_each_column(all, [&](std::vector<double> &values, const GrainColumn &column) {
+    if (column.name != std::string("position") && column.name != std::string("radius"))
+      for (double &value : values)
+        value = ++number;
+  });
+  const GrainArrays before = all;
+  GrainLoads        loads;
+  loads.reset(all.n());
+  ContactGeometry geometry;
+  geometry.walls.set({{{{-1., 0.}}, {{1., 0.}}, {{0., 0.}}, "floor"}});
+  ContactCandidates  pairs     = find_candidates(all, geometry, 0.5 * d);
+  const unsigned int n_colours = colour_contacts(all, pairs);
+
+  ContactShare share(MPI_COMM_WORLD);
+  share.divide(all, loads, pairs, n_colours);
+  if (n_ranks() > 1)
+    {
+      EXPECT_LT(share.n_owned(), all.n());
+    }
+  EXPECT_GT(share.n_owned(), 0u);
+  for (const GrainColumn &column : grain_columns)
+    for (unsigned int c = 0; c < column.n_components; ++c)
+      for (std::size_t k = 0; k < share.grains.n(); ++k)
+        EXPECT_EQ(column.values(share.grains, c)[k], column.values(before, c)[share.number_of(k)]) << column.name;
+
+  for_each_column(share.grains, [&](std::vector<double> &values, const GrainColumn &) {
+    for (double &value : values)
+      value = -value;
+  });
+  std::vector<std::uint8_t> touched(all.n());
+  share.collect(all, touched);
+  for (const GrainColumn &column : grain_columns)
+    for (unsigned int c = 0; c < column.n_components; ++c)
+      for (std::size_t k = 0; k < all.n(); ++k)
+        EXPECT_EQ(column.values(all, c)[k],
+                  column.values(before, c)[k] * (column.when == GrainColumn::When::changing ? -1. : 1.))
+          << column.name;
+}
+
 // A heap falls, bounces, collapses sideways and comes to rest. Grains change their rank on the way, with impulses.
 TEST(Ranks, CollapseHasTheSameBits)
 {
@@ -291,7 +335,7 @@ TEST(Ranks, FastGrainsHaveTheSameBits)
     s.set("set Search skin = 0.01\nset Restitution = 0.9\nset Restitution threshold velocity = 1e-3");
     throw_in(s, 10, 10);
     for (std::size_t k = 0; k < s.grains.n(); ++k)
-      s.grains.vx[k] *= 10.;
+      s.grains.velocity[0][k] *= 10.;
     box(s, 14. * d);
   });
   twins.run(1e-3, 60);

@@ -28,10 +28,10 @@ namespace
       grains.resize(n);
       for (unsigned int k = 0; k < n; ++k)
         {
-          grains.id[k]     = k;
-          grains.y[k]      = (2 * k + 1) * r;
-          grains.radius[k] = r;
-          grains.mass[k]   = 1.;
+          grains.id[k]          = k;
+          grains.position[1][k] = (2 * k + 1) * r;
+          grains.radius[k]      = r;
+          grains.mass[k]        = 1.;
         }
       load(1.);
     }
@@ -39,7 +39,7 @@ namespace
     void load(const double factor)
     {
       loads.reset(grains.n());
-      for (double &f : loads.fy)
+      for (double &f : loads.force[1])
         f = -g * factor;
     }
 
@@ -56,15 +56,15 @@ TEST(Rest, UnchangedGrainsStandStill)
   Column column(5);
   column.step(column.stepper.settings().rest_steps);
   EXPECT_FALSE(column.report.at_rest);
-  const auto y = column.grains.y;
+  const auto y = column.grains.position[1];
   column.step(100);
   EXPECT_TRUE(column.report.at_rest);
   EXPECT_EQ(column.report.n_sweeps, 0u);
-  EXPECT_EQ(column.grains.y, y);
+  EXPECT_EQ(column.grains.position[1], y);
   for (unsigned int k = 0; k < 5; ++k)
     {
-      EXPECT_EQ(column.grains.vy[k], 0.);
-      EXPECT_EQ(column.grains.fcy[k], g);
+      EXPECT_EQ(column.grains.velocity[1][k], 0.);
+      EXPECT_EQ(column.grains.contact_force[1][k], g);
       EXPECT_TRUE(column.stepper.touched()[k]);
     }
   EXPECT_NEAR(column.report.wall_force.at("floor")[1], -5. * g, 1e-4 * g);
@@ -83,7 +83,7 @@ TEST(Rest, OtherLoadsWakeThem)
   ASSERT_TRUE(column.report.at_rest);
   column.load(-1e-2);
   column.step(20);
-  EXPECT_NEAR(column.grains.vy[0], 20 * dt * 1e-2 * g, 1e-8);
+  EXPECT_NEAR(column.grains.velocity[1][0], 20 * dt * 1e-2 * g, 1e-8);
 }
 
 TEST(Rest, ASlowChangeOfLoadAddsUp)
@@ -104,15 +104,15 @@ TEST(Rest, AKickOrAMovedWallWakesThem)
   Column column(5);
   column.step(50);
   ASSERT_TRUE(column.report.at_rest);
-  column.grains.vy[4] = 0.1;
+  column.grains.velocity[1][4] = 0.1;
   column.step();
   EXPECT_FALSE(column.report.at_rest);
-  EXPECT_NEAR(column.grains.vy[4], 0.1 - g * dt, 1e-10);
+  EXPECT_NEAR(column.grains.velocity[1][4], 0.1 - g * dt, 1e-10);
   column.step(200);
   ASSERT_TRUE(column.report.at_rest);
   column.stepper.set_walls({});
   column.step();
-  EXPECT_NEAR(column.grains.vy[0], -g * dt, 1e-10);
+  EXPECT_NEAR(column.grains.velocity[1][0], -g * dt, 1e-10);
 }
 
 TEST(Rest, ASlowSlopeIsNoRest)
@@ -124,14 +124,14 @@ TEST(Rest, ASlowSlopeIsNoRest)
   ContactStepper stepper;
   stepper.set_walls({{{{-1., 0.}}, {{1., 0.}}, {}, "floor"}});
   grains.resize(1);
-  grains.y[0] = grains.radius[0] = r;
-  grains.mass[0]                 = 1.;
+  grains.position[1][0] = grains.radius[0] = r;
+  grains.mass[0]                           = 1.;
   loads.reset(1);
-  loads.fx[0] = g * std::sin(slope);
-  loads.fy[0] = -g * std::cos(slope);
+  loads.force[0][0] = g * std::sin(slope);
+  loads.force[1][0] = -g * std::cos(slope);
   for (unsigned int k = 0; k < 200; ++k)
     stepper.advance(grains, loads, dt, {{g * std::sin(slope), -g * std::cos(slope)}});
-  EXPECT_NEAR(grains.vx[0], 2. / 3. * g * std::sin(slope) * 200 * dt, 1e-8);
+  EXPECT_NEAR(grains.velocity[0][0], 2. / 3. * g * std::sin(slope) * 200 * dt, 1e-8);
 }
 
 TEST(Rest, CanBeSwitchedOff)
@@ -152,20 +152,20 @@ TEST(Rest, WhatTouchesNothingDoesNotSleep)
   ContactReport  report;
   stepper.set_walls({{{{-1., 0.}}, {{1., 0.}}, {}, "floor"}});
   grains.resize(2);
-  grains.id     = {0, 1};
-  grains.y      = {r, 10. * r};
-  grains.radius = {r, r};
-  grains.mass   = {1., 1.};
-  grains.vx[1]  = u;
+  grains.id             = {0, 1};
+  grains.position[1]    = {r, 10. * r};
+  grains.radius         = {r, r};
+  grains.mass           = {1., 1.};
+  grains.velocity[0][1] = u;
   loads.reset(2);
-  loads.fy[0]   = -g;
-  loads.fx[1]   = drag * u;
-  loads.drag[1] = drag;
+  loads.force[1][0] = -g;
+  loads.force[0][1] = drag * u;
+  loads.drag[1]     = drag;
   for (unsigned int k = 0; k < 200; ++k)
     report = stepper.advance(grains, loads, dt, {{0., -g}});
   EXPECT_FALSE(report.at_rest);
-  EXPECT_NEAR(grains.x[1] / (u * 200 * dt), 1., 1e-9);
-  EXPECT_EQ(grains.fcx[1], 0.);
+  EXPECT_NEAR(grains.position[0][1] / (u * 200 * dt), 1., 1e-9);
+  EXPECT_EQ(grains.contact_force[0][1], 0.);
 }
 
 // Nor do two that touch each other only, or one that creeps down a wall as fast as a thick fluid lets it.
@@ -178,18 +178,18 @@ TEST(Rest, WhatSinksTogetherDoesNotSleep)
   ContactReport  report;
   stepper.set_walls({{{{-1., 0.}}, {{1., 0.}}, {}, "floor"}});
   grains.resize(2);
-  grains.id     = {0, 1};
-  grains.y      = {10. * r, 12. * r};
-  grains.radius = {r, r};
-  grains.mass   = {1., 1.};
-  grains.vy     = {-u, -u};
+  grains.id          = {0, 1};
+  grains.position[1] = {10. * r, 12. * r};
+  grains.radius      = {r, r};
+  grains.mass        = {1., 1.};
+  grains.velocity[1] = {-u, -u};
   loads.reset(2);
-  loads.fy   = {g, -g - 2. * drag * u}; // the upper one presses on the lower one
-  loads.drag = {drag, drag};
+  loads.force[1] = {g, -g - 2. * drag * u}; // the upper one presses on the lower one
+  loads.drag     = {drag, drag};
   for (unsigned int k = 0; k < 200; ++k)
     report = stepper.advance(grains, loads, dt, {{0., -g}});
   EXPECT_FALSE(report.at_rest);
-  EXPECT_NEAR((10. * r - grains.y[0]) / (u * 200 * dt), 1., 1e-3);
+  EXPECT_NEAR((10. * r - grains.position[1][0]) / (u * 200 * dt), 1., 1e-3);
 }
 
 TEST(Rest, WhatCreepsDownASlopeDoesNotSleep)
@@ -202,17 +202,17 @@ TEST(Rest, WhatCreepsDownASlopeDoesNotSleep)
   stepper.settings().wall_friction = 0.;
   stepper.set_walls({{{{-1., 0.}}, {{1., 0.}}, {}, "slope"}});
   grains.resize(1);
-  grains.id     = {0};
-  grains.y      = {r};
-  grains.radius = {r};
-  grains.mass   = {1.};
-  grains.vx     = {u};
+  grains.id          = {0};
+  grains.position[1] = {r};
+  grains.radius      = {r};
+  grains.mass        = {1.};
+  grains.velocity[0] = {u};
   loads.reset(1);
-  loads.fx   = {g * std::sin(slope)};
-  loads.fy   = {-g * std::cos(slope)};
-  loads.drag = {drag};
+  loads.force[0] = {g * std::sin(slope)};
+  loads.force[1] = {-g * std::cos(slope)};
+  loads.drag     = {drag};
   for (unsigned int k = 0; k < 200; ++k)
     report = stepper.advance(grains, loads, dt, {{g * std::sin(slope), -g * std::cos(slope)}});
   EXPECT_FALSE(report.at_rest);
-  EXPECT_NEAR(grains.x[0] / (u * 200 * dt), 1., 1e-3);
+  EXPECT_NEAR(grains.position[0][0] / (u * 200 * dt), 1., 1e-3);
 }

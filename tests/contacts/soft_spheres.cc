@@ -34,9 +34,9 @@ TEST(SoftSpheres, Restitution)
       s.add(1.5 * d, 10. * d, -0.1, 0., 0.5 * r);
       const double m1 = s.grains.mass[1], m2 = s.grains.mass[2], momentum = 0.1 * (m1 - m2);
       s.step(1e-4, 100);
-      EXPECT_NEAR(s.grains.vy[0], 0.1 * e, 3e-3 * 0.1) << e;
-      EXPECT_NEAR(s.grains.vx[2] - s.grains.vx[1], 0.2 * e, 3e-3 * 0.2) << e;
-      EXPECT_NEAR(m1 * s.grains.vx[1] + m2 * s.grains.vx[2], momentum, 1e-12 * m1);
+      EXPECT_NEAR(s.grains.velocity[1][0], 0.1 * e, 3e-3 * 0.1) << e;
+      EXPECT_NEAR(s.grains.velocity[0][2] - s.grains.velocity[0][1], 0.2 * e, 3e-3 * 0.2) << e;
+      EXPECT_NEAR(m1 * s.grains.velocity[0][1] + m2 * s.grains.velocity[0][2], momentum, 1e-12 * m1);
     }
 }
 
@@ -52,10 +52,10 @@ TEST(SoftSpheres, Stack)
   s.step(1e-3, 400);
   const double mg = s.grains.mass[0] * g;
   EXPECT_NEAR(s.report.wall_force["floor"][1] / (-n * mg), 1., 1e-6);
-  EXPECT_NEAR((r - s.grains.y[0]) / (n * mg / 1e5), 1., 1e-6);
+  EXPECT_NEAR((r - s.grains.position[1][0]) / (n * mg / 1e5), 1., 1e-6);
   EXPECT_NEAR(s.report.max_penetration / (n * mg / 1e5), 1., 1e-6);
   for (int k = 0; k < n; ++k)
-    EXPECT_NEAR(s.grains.fcy[k] / mg, 1., 1e-6);
+    EXPECT_NEAR(s.grains.contact_force[1][k] / mg, 1., 1e-6);
   EXPECT_EQ(s.report.n_contacts, static_cast<unsigned int>(n));
 }
 
@@ -72,11 +72,11 @@ TEST(SoftSpheres, DiscOnIncline)
       s.floor();
       s.add(0., r);
       s.step(1e-3, 20); // let it settle on its spring
-      const double before = s.grains.vx[0];
+      const double before = s.grains.velocity[0][0];
       s.step(1e-3, 50);
       const bool   rolls    = std::tan(a) < 3. * mu;
       const double expected = (rolls ? 2. / 3. * std::sin(a) : std::sin(a) - mu * std::cos(a)) * g * 5e-2;
-      EXPECT_NEAR((s.grains.vx[0] - before) / expected, 1., 2e-3) << degrees;
+      EXPECT_NEAR((s.grains.velocity[0][0] - before) / expected, 1., 2e-3) << degrees;
     }
 }
 
@@ -105,9 +105,9 @@ TEST(SoftSpheres, SpringsSurviveARestart)
     return s.grains;
   };
   const GrainArrays whole = run(false), restarted = run(true);
-  EXPECT_EQ(whole.x[0], restarted.x[0]);
-  EXPECT_EQ(whole.vx[0], restarted.vx[0]);
-  EXPECT_LT(std::abs(whole.vx[0]), 1e-9);
+  EXPECT_EQ(whole.position[0][0], restarted.position[0][0]);
+  EXPECT_EQ(whole.velocity[0][0], restarted.velocity[0][0]);
+  EXPECT_LT(std::abs(whole.velocity[0][0]), 1e-9);
   EXPECT_EQ(springs[0], springs[1]);
   EXPECT_NEAR(std::abs(springs[0]) * 2. / 7. * 1e5 / (0.3 * whole.mass[0] * g), 1., 1e-5);
 }
@@ -119,7 +119,7 @@ TEST(SoftSpheres, DragIsImplicit)
   s.add(0., d, 0., 0.);
   s.loads.drag = {100. * s.grains.mass[0]};
   s.step(1e-3, 200);
-  EXPECT_NEAR(s.grains.vy[0] / (-g / 100.), 1., 1e-6); // its terminal velocity
+  EXPECT_NEAR(s.grains.velocity[1][0] / (-g / 100.), 1., 1e-6); // its terminal velocity
 }
 
 TEST(SoftSpheres, UnknownLawsAreRefused)

@@ -18,8 +18,8 @@ namespace
     bed::Channel             channel(8. * r, 8. * r, r, {}, 0.);
     bed::grains::GrainArrays grains;
     grains.resize(1);
-    grains.x[0]      = 4.1 * r;
-    grains.y[0]      = 3.7 * r;
+    grains.position[0][0] = 4.1 * r;
+    grains.position[1][0] = 3.7 * r;
     grains.radius[0] = grains.fluid_radius[0] = r;
     grains.mass[0]                            = rho_p * numbers::PI * r * r;
     bed::coupling::OverlapMap map(channel.space);
@@ -46,8 +46,8 @@ namespace
     if (soft)
       prm.set("Contact model", "soft-sphere");
     stepper.advance(grains, loads, dt, state.gravity);
-    EXPECT_NEAR(grains.vx[0], 0., 1e-15);
-    return grains.vy[0] / dt;
+    EXPECT_NEAR(grains.velocity[0][0], 0., 1e-15);
+    return grains.velocity[1][0] / dt;
   }
 } // namespace
 
@@ -71,8 +71,8 @@ TEST(AddedMass, ThirdLaw)
   bed::Bed b = bed::random_bed(3, 16., 12.);
   for (std::size_t i = 0; i < b.grains.n(); ++i)
     {
-      b.grains.vx[i] = 1e-3 * std::sin(7. * i);
-      b.grains.vy[i] = 1e-3 * std::cos(5. * i);
+      b.grains.velocity[0][i] = 1e-3 * std::sin(7. * i);
+      b.grains.velocity[1][i] = 1e-3 * std::cos(5. * i);
     }
   for (const std::string scheme : {"semi-implicit per piece", "semi-implicit per grain"})
     {

@@ -58,19 +58,19 @@ namespace bed
         {
           auto &g = b.grains;
           g.resize(g.n() + 1);
-          g.id.back()     = g.n() - 1;
-          g.x.back()      = s.x;
-          g.y.back()      = s.y - bottom;
-          g.radius.back() = s.radius;
+          g.id.back()          = g.n() - 1;
+          g.position[0].back() = s.x;
+          g.position[1].back() = s.y - bottom;
+          g.radius.back()      = s.radius;
           area += numbers::PI * s.radius * s.radius;
         }
     const double factor = std::sqrt(packing * width * b.height / area);
     for (std::size_t i = 0; i < b.grains.n(); ++i)
       {
-        b.grains.fluid_radius[i] = factor * b.grains.radius[i];
-        b.grains.mass[i]         = 2630. * numbers::PI * b.grains.radius[i] * b.grains.radius[i];
-        b.grains.x0[i]           = b.grains.x[i];
-        b.grains.y0[i]           = b.grains.y[i];
+        b.grains.fluid_radius[i]        = factor * b.grains.radius[i];
+        b.grains.mass[i]                = 2630. * numbers::PI * b.grains.radius[i] * b.grains.radius[i];
+        b.grains.initial_position[0][i] = b.grains.position[0][i];
+        b.grains.initial_position[1][i] = b.grains.position[1][i];
       }
     return b;
   }
@@ -86,8 +86,8 @@ namespace bed
           auto &g = result.grains;
           g.resize(g.n() + 1);
           g.id.back()           = g.n() - 1;
-          g.x.back()            = x;
-          g.y.back()            = (0.5 + j * std::sqrt(0.75)) * d;
+          g.position[0].back()  = x;
+          g.position[1].back()  = (0.5 + j * std::sqrt(0.75)) * d;
           g.radius.back()       = 0.5 * d;
           g.fluid_radius.back() = 0.5 * d * std::sqrt(0.52 / 0.9069);
           g.mass.back()         = 2630. * M_PI * 0.25 * d * d;

@@ -171,9 +171,9 @@ TEST(DragLaws, GrainsOutsideTheRangeAreNamed)
   g.resize(2);
   for (unsigned int i = 0; i < 2; ++i)
     {
-      g.id[i]     = 7 + i;
-      g.x[i]      = (2.5 + 5. * i) * d; // the second in a dense corner of its own
-      g.y[i]      = 2.5 * d;
+      g.id[i]          = 7 + i;
+      g.position[0][i] = (2.5 + 5. * i) * d; // the second in a dense corner of its own
+      g.position[1][i] = 2.5 * d;
       g.radius[i] = g.fluid_radius[i] = (i == 0 ? 0.2 : 2.) * d;
       g.mass[i]                       = 1.;
     }

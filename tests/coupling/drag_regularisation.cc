@@ -18,9 +18,9 @@ namespace
     b.grains.resize(n * n);
     for (unsigned int k = 0; k < n * n; ++k)
       {
-        b.grains.id[k]     = k;
-        b.grains.x[k]      = (2. * (k % n) + 1.) * b.d;
-        b.grains.y[k]      = (2. * (k / n) + 1.) * b.d;
+        b.grains.id[k]          = k;
+        b.grains.position[0][k] = (2. * (k % n) + 1.) * b.d;
+        b.grains.position[1][k] = (2. * (k / n) + 1.) * b.d;
         b.grains.radius[k] = b.grains.fluid_radius[k] = 0.5 * b.d;
         b.grains.mass[k]                              = 1.;
       }

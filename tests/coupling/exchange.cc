@@ -70,8 +70,8 @@ TEST(OverlapMap, SingleGrainInsideNeedsNoClipping)
   Channel                  channel(1., 1., 1. / 32., s, 0.);
   bed::grains::GrainArrays g;
   g.resize(1);
-  g.x[0]            = 0.511;
-  g.y[0]            = 0.487;
+  g.position[0][0]  = 0.511;
+  g.position[1][0]  = 0.487;
   g.radius[0]       = 0.25;
   g.fluid_radius[0] = 0.25;
   channel.coupling.update_void_fraction(g);
@@ -85,9 +85,9 @@ TEST(Exchange, ThirdLaw)
   bed::Bed b = bed::random_bed(3, 16., 12.);
   for (std::size_t i = 0; i < b.grains.n(); ++i) // moving grains, pushed by their neighbours
     {
-      b.grains.vx[i]  = 1e-3 * std::sin(7. * i);
-      b.grains.vy[i]  = 1e-3 * std::cos(5. * i);
-      b.grains.fcy[i] = 9.81 * b.grains.mass[i] * (1. + std::sin(3. * i));
+      b.grains.velocity[0][i]      = 1e-3 * std::sin(7. * i);
+      b.grains.velocity[1][i]      = 1e-3 * std::cos(5. * i);
+      b.grains.contact_force[1][i] = 9.81 * b.grains.mass[i] * (1. + std::sin(3. * i));
     }
   for (const std::string scheme : {"explicit", "implicit drag", "semi-implicit per piece", "semi-implicit per grain"})
     for (const bool lumped : {true, false})

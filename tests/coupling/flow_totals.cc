@@ -60,7 +60,7 @@ namespace
     Bed bed;
     bed.width = bed.height = 16. * (bed.d = 2e-4);
     bed.grains.resize(1); // there must be one; it has hardly any volume
-    bed.grains.x[0] = bed.grains.y[0] = 0.3 * bed.width;
+    bed.grains.position[0][0] = bed.grains.position[1][0] = 0.3 * bed.width;
     bed.grains.radius[0] = bed.grains.fluid_radius[0] = 1e-7 * bed.d;
     // a uniform flow has none, and what diverges at the rate a gains a times its volume at each node
     EXPECT_NEAR(Flow(bed, 1., 0., 0.01).totals.mass_residual, 0., 1e-12);
@@ -85,11 +85,11 @@ namespace
   {
     // in the middle of clear water
     Bed bed = random_bed(1, 16., 16.);
-    for (double &y : bed.grains.y)
+    for (double &y : bed.grains.position[1])
       y += 0.5 * bed.height;
     bed.height *= 2.;
     const double still = Flow(bed, 1., 0., 0.01).totals.mass_residual;
-    for (double &v : bed.grains.vy)
+    for (double &v : bed.grains.velocity[1])
       v = 0.01;
     // what lumping the void fraction leaves on cells of up to 4 d is less than half
     EXPECT_LT(Flow(bed, 1., 0., 0.01).totals.mass_residual, 0.6 * still);

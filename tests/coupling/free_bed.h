@@ -36,13 +36,13 @@ namespace bed
       for (const auto &seed : settled_seeds(1, f.n, width))
         {
           grains.resize(grains.n() + 1);
-          const std::size_t k = grains.n() - 1;
-          grains.id[k]        = k;
-          grains.x[k] = grains.x0[k] = seed.x;
-          grains.y[k] = grains.y0[k] = seed.y;
-          grains.radius[k]           = seed.radius;
-          grains.fluid_radius[k]     = 0.8 * seed.radius;
-          grains.mass[k]             = f.density * numbers::PI * seed.radius * seed.radius;
+          const std::size_t k   = grains.n() - 1;
+          grains.id[k]          = k;
+          grains.position[0][k] = grains.initial_position[0][k] = seed.x;
+          grains.position[1][k] = grains.initial_position[1][k] = seed.y;
+          grains.radius[k]                                      = seed.radius;
+          grains.fluid_radius[k]                                = 0.8 * seed.radius;
+          grains.mass[k]                                        = f.density * numbers::PI * seed.radius * seed.radius;
           area += numbers::PI * seed.radius * seed.radius;
           onset += (f.density - 0.64 * 1000.) * numbers::PI * seed.radius * seed.radius * g / width;
         }
@@ -72,7 +72,7 @@ namespace bed
       for (std::size_t k = 0; k < grains.n(); ++k)
         {
           const auto &v = channel.coupling.predicted_velocity()[k];
-          sum += std::hypot(v[0] - grains.vx[k], v[1] - grains.vy[k]);
+          sum += std::hypot(v[0] - grains.velocity[0][k], v[1] - grains.velocity[1][k]);
         }
       return sum / grains.n();
     }

@@ -130,10 +130,11 @@ namespace
         const double volume = numbers::PI * before.fluid_radius[k] * before.fluid_radius[k];
         const double weight = FreeBed::g * before.mass[k], reduced = weight - FreeBed::g * 1000. * volume;
         const auto  &force = bed.channel.coupling.fluid_force()[k];
-        EXPECT_NEAR(
-          before.mass[k] * (bed.grains.vx[k] - before.vx[k]) / s.dt, force[0] + bed.grains.fcx[k], 1e-6 * weight);
-        EXPECT_NEAR(before.mass[k] * (bed.grains.vy[k] - before.vy[k]) / s.dt,
-                    force[1] + bed.grains.fcy[k] - reduced,
+        EXPECT_NEAR(before.mass[k] * (bed.grains.velocity[0][k] - before.velocity[0][k]) / s.dt,
+                    force[0] + bed.grains.contact_force[0][k],
+                    1e-6 * weight);
+        EXPECT_NEAR(before.mass[k] * (bed.grains.velocity[1][k] - before.velocity[1][k]) / s.dt,
+                    force[1] + bed.grains.contact_force[1][k] - reduced,
                     1e-6 * weight);
       }
   }
@@ -182,14 +183,14 @@ namespace
         const auto before = bed.grains;
         bed.step();
         n_tight += bed.report.hasty ? 0 : bed.iteration.n_repetitions() > 0;
-        coupling::GrainMotion motion{bed.grains.vx, bed.grains.vy, bed.grains.omega};
+        coupling::GrainMotion motion{bed.grains.velocity[0], bed.grains.velocity[1], bed.grains.omega};
         for (std::size_t g = 0; g < before.n(); ++g)
           {
-            motion.vx[g] = (bed.grains.x[g] - before.x[g]) / s.dt;
-            motion.vy[g] = (bed.grains.y[g] - before.y[g]) / s.dt;
+            motion.vx[g] = (bed.grains.position[0][g] - before.position[0][g]) / s.dt;
+            motion.vy[g] = (bed.grains.position[1][g] - before.position[1][g]) / s.dt;
           }
         const auto           &c      = bed.channel.coupling;
-        const auto            unseen = c.unseen_force(motion, bed.channel.loads);
+        const auto            unseen = c.unseen_force(before.velocity, motion, bed.channel.loads);
         std::array<double, 2> sum    = {{0., 0.}};
         double                square = 0.;
         for (std::size_t i = 0; i < unseen.size(); ++i)
@@ -217,9 +218,10 @@ namespace
     for (std::size_t k = 0; k < v.size(); ++k)
       {
         const unsigned int g = map.grain()[k];
-        largest              = std::max(largest,
-                           std::hypot(v[k][0] - (bed.grains.x[g] - before.x[g]) / bed.channel.settings.dt,
-                                      v[k][1] - (bed.grains.y[g] - before.y[g]) / bed.channel.settings.dt));
+        largest =
+          std::max(largest,
+                   std::hypot(v[k][0] - (bed.grains.position[0][g] - before.position[0][g]) / bed.channel.settings.dt,
+                              v[k][1] - (bed.grains.position[1][g] - before.position[1][g]) / bed.channel.settings.dt));
       }
     return largest;
   }
@@ -258,8 +260,8 @@ namespace
       }
     for (std::size_t g = 0; g < exact.grains.n(); ++g)
       {
-        result.difference += two_sweeps.grains.y[g] - exact.grains.y[g];
-        result.rise_exact += exact.grains.y[g] - exact.grains.y0[g];
+        result.difference += two_sweeps.grains.position[1][g] - exact.grains.position[1][g];
+        result.rise_exact += exact.grains.position[1][g] - exact.grains.initial_position[1][g];
       }
     result.difference /= result.rise_exact;
     result.rise_exact /= f.n * FreeBed::d;

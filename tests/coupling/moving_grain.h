@@ -14,12 +14,12 @@ namespace moving_grain
   {
     bed::grains::GrainArrays grain;
     grain.resize(1);
-    grain.x[0]      = 0.5 * size - 2.93 * d;
-    grain.y[0]      = 0.5 * size - 0.93 * d;
+    grain.position[0][0] = 0.5 * size - 2.93 * d;
+    grain.position[1][0] = 0.5 * size - 0.93 * d;
     grain.radius[0] = grain.fluid_radius[0] = 0.5 * d;
     grain.mass[0]                           = 2630. * numbers::PI * d * d / 4.;
-    grain.vx[0]                             = v * std::cos(angle);
-    grain.vy[0]                             = v * std::sin(angle);
+    grain.velocity[0][0]                    = v * std::cos(angle);
+    grain.velocity[1][0]                    = v * std::sin(angle);
     return grain;
   }
 
@@ -43,8 +43,8 @@ namespace moving_grain
     Tensor<1, 2> step()
     {
       channel.step(grain, true);
-      grain.x[0] += channel.settings.dt * grain.vx[0];
-      grain.y[0] += channel.settings.dt * grain.vy[0];
+      grain.position[0][0] += channel.settings.dt * grain.velocity[0][0];
+      grain.position[1][0] += channel.settings.dt * grain.velocity[1][0];
       const auto  &f = channel.coupling.fluid_force()[0];
       Tensor<1, 2> force;
       force[0] = f[0];

@@ -56,9 +56,9 @@ namespace
       {
         for (unsigned int k = 0; k < 5; ++k)
           {
-            const auto i = static_cast<std::size_t>(uniform(random) * g.n());
-            g.x[i]       = round == 2 && periodic ? 0.01 * bed.width : bed.width * uniform(random);
-            g.y[i] += 0.1 * bed.d * (uniform(random) - 0.5);
+            const auto i     = static_cast<std::size_t>(uniform(random) * g.n());
+            g.position[0][i] = round == 2 && periodic ? 0.01 * bed.width : bed.width * uniform(random);
+            g.position[1][i] += 0.1 * bed.d * (uniform(random) - 0.5);
           }
         EXPECT_TRUE(map.cut(g, rule));
         expect_same(map, cut_at_once(channel.space, g, rule));
@@ -67,9 +67,9 @@ namespace
     // less than the tolerance is not seen, its sum is
     auto tolerant      = rule;
     tolerant.tolerance = 1e-3;
-    g.x[3] += 0.8e-3 * 2. * g.radius[3];
+    g.position[0][3] += 0.8e-3 * 2. * g.radius[3];
     EXPECT_FALSE(map.cut(g, tolerant));
-    g.x[3] += 0.8e-3 * 2. * g.radius[3];
+    g.position[0][3] += 0.8e-3 * 2. * g.radius[3];
     EXPECT_TRUE(map.cut(g, tolerant));
     expect_same(map, cut_at_once(channel.space, g, rule));
 
@@ -93,9 +93,9 @@ namespace
     bed.grains.resize(64);
     for (std::size_t k = 0; k < 64; ++k)
       {
-        bed.grains.id[k]     = k;
-        bed.grains.x[k]      = (0.5 + k % 8) * bed.d;
-        bed.grains.y[k]      = (0.5 + k / 8) * bed.d;
+        bed.grains.id[k]          = k;
+        bed.grains.position[0][k] = (0.5 + k % 8) * bed.d;
+        bed.grains.position[1][k] = (0.5 + k / 8) * bed.d;
         bed.grains.radius[k] = bed.grains.fluid_radius[k] = 0.4 * bed.d;
       }
     for (const bool smooth : {false, true})
@@ -119,9 +119,9 @@ namespace
     for (unsigned int k = 0; k < n * n; ++k)
       {
         const double x = (0.5 + k % n) * d, y = (0.5 + k / n) * d;
-        g.id[k]     = k;
-        g.x[k]      = std::cos(angle) * x - std::sin(angle) * y;
-        g.y[k]      = std::sin(angle) * x + std::cos(angle) * y;
+        g.id[k]          = k;
+        g.position[0][k] = std::cos(angle) * x - std::sin(angle) * y;
+        g.position[1][k] = std::sin(angle) * x + std::cos(angle) * y;
         g.radius[k] = g.fluid_radius[k] = 0.4 * d;
       }
     return g;
@@ -184,8 +184,8 @@ namespace
     make_cracked(tria, 8, d, 2.5);
     const SlipSpace     fluid(tria);
     grains::GrainArrays grain = square_array(1, d, 0.);
-    grain.x[0]                = 3.5 * d;
-    grain.y[0]                = 6. * d;
+    grain.position[0][0]      = 3.5 * d;
+    grain.position[1][0]      = 6. * d;
     const auto map            = cut_at_once(fluid.space, grain, two_diameters());
     double     area           = 0.;
     const auto cells          = fluid.space.cells();
@@ -273,8 +273,8 @@ namespace
               const double exact = M_PI * g.fluid_radius[i] * g.fluid_radius[i];
               grains += exact;
               EXPECT_NEAR(area[i] / exact, 1., 1e-13);
-              if (g.x[i] > 3. * bed.d && g.x[i] < bed.width - 3. * bed.d && g.y[i] > 3. * bed.d &&
-                  g.y[i] < bed.height - 3. * bed.d) // images aside
+              if (g.position[0][i] > 3. * bed.d && g.position[0][i] < bed.width - 3. * bed.d &&
+                  g.position[1][i] > 3. * bed.d && g.position[1][i] < bed.height - 3. * bed.d) // images aside
                 {
                   EXPECT_NEAR(x[i] / (exact * bed.d), 0., 1e-11);
                   EXPECT_NEAR(y[i] / (exact * bed.d), 0., 1e-11);
@@ -361,11 +361,11 @@ namespace
     Channel              channel(bed.width, bed.height, 4. * bed.d, settings, 0.);
     coupling::OverlapMap map(channel.space);
     map.reinit();
-    const auto &first = channel.space.cells()[0].vertex;
-    bed.grains.x[0]   = first[1][0]; // between two cells
-    bed.grains.y[0]   = 0.5 * (first[0][1] + first[2][1]);
-    auto rule         = channel.coupling.settings;
-    rule.rule         = coupling::OverlapSettings::Rule::centre;
+    const auto &first         = channel.space.cells()[0].vertex;
+    bed.grains.position[0][0] = first[1][0]; // between two cells
+    bed.grains.position[1][0] = 0.5 * (first[0][1] + first[2][1]);
+    auto rule                 = channel.coupling.settings;
+    rule.rule                 = coupling::OverlapSettings::Rule::centre;
     map.cut(bed.grains, rule);
     EXPECT_EQ(map.terms().n_pieces(), bed.grains.n() + 1);
     std::vector<double> area(bed.grains.n(), 0.);

@@ -11,7 +11,7 @@ namespace
   bed::Bed shifted(const bed::Bed &b, const double shift)
   {
     bed::Bed result = b;
-    for (double &x : result.grains.x)
+    for (double &x : result.grains.position[0])
       x = std::fmod(x + shift, b.width);
     return result;
   }
@@ -23,10 +23,10 @@ TEST(Periodic, PiecesAddUpAcrossTheSide)
   s.periodic = true;
   for (const double filter : {0., 1.5})
     {
-      s.filter           = filter;
-      bed::Bed b         = bed::random_bed(1, 10., 8.);
-      b.grains.x.front() = 1e-9 * b.d;
-      b.grains.x.back()  = (1. - 1e-12) * b.width;
+      s.filter                     = filter;
+      bed::Bed b                   = bed::random_bed(1, 10., 8.);
+      b.grains.position[0].front() = 1e-9 * b.d;
+      b.grains.position[0].back()  = (1. - 1e-12) * b.width;
       bed::Channel              channel(b.width, b.height, 0.5 * b.d, s, 0.);
       bed::coupling::OverlapMap map(channel.space);
       map.reinit();

@@ -16,8 +16,8 @@ namespace
   {
     bed::grains::GrainArrays grain;
     grain.resize(1);
-    grain.x[0]      = x;
-    grain.y[0]      = y;
+    grain.position[0][0] = x;
+    grain.position[1][0] = y;
     grain.radius[0] = grain.fluid_radius[0] = 0.5 * d;
     grain.mass[0]                           = rho_p * numbers::PI * d * d / 4.;
     return grain;
@@ -48,7 +48,7 @@ namespace
       for (const auto &cell : channel.space.cells())
         for (unsigned int v = 0; v < channel.space.n_nodes_per_cell(); ++v)
           field.block(0).local_element(cell.velocity[v][0]) = shear * cell.vertex[v][1];
-      grain.vx[0] = shear * grain.y[0];
+      grain.velocity[0][0] = shear * grain.position[1][0];
       map.reinit();
       map.cut(grain, channel.coupling.settings);
     }
@@ -124,7 +124,7 @@ namespace
       channel.bc.pin(true);
       channel.initialize();
       channel.solver.discretisation.convection = false;
-      grain.vx[0]                              = rate * (grain.y[0] - y_0);
+      grain.velocity[0][0]                     = rate * (grain.position[1][0] - y_0);
     }
 
     void step()
@@ -218,10 +218,10 @@ TEST(Rotation, AngularThirdLaw)
   bed::Bed b = bed::random_bed(3, 16., 12.);
   for (std::size_t i = 0; i < b.grains.n(); ++i)
     {
-      b.grains.vx[i]    = 1e-3 * std::sin(7. * i);
-      b.grains.vy[i]    = 1e-3 * std::cos(5. * i);
-      b.grains.omega[i] = 10. * std::sin(11. * i);
-      b.grains.fcy[i]   = 9.81 * b.grains.mass[i] * (1. + std::sin(3. * i));
+      b.grains.velocity[0][i]      = 1e-3 * std::sin(7. * i);
+      b.grains.velocity[1][i]      = 1e-3 * std::cos(5. * i);
+      b.grains.omega[i]            = 10. * std::sin(11. * i);
+      b.grains.contact_force[1][i] = 9.81 * b.grains.mass[i] * (1. + std::sin(3. * i));
     }
   for (const std::string scheme : {"explicit", "implicit drag", "semi-implicit per piece", "semi-implicit per grain"})
     for (const bool lumped : {true, false})

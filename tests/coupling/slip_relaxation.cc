@@ -39,11 +39,11 @@ namespace
           {
             const unsigned int k = j * 12 + i;
             g.id[k]              = k;
-            g.x[k]               = (i + 0.5) * spacing;
-            g.y[k]               = (j + 0.5) * spacing;
+            g.position[0][k]     = (i + 0.5) * spacing;
+            g.position[1][k]     = (j + 0.5) * spacing;
             g.radius[k] = g.fluid_radius[k] = std::sqrt((1. - eps) / numbers::PI) * spacing;
             g.mass[k]                       = rho_p * (1. - eps) * spacing * spacing;
-            g.vy[k]                         = v_start;
+            g.velocity[1][k]                = v_start;
           }
       // the fluid flows the other way, without net flux
       auto field = channel.space.make_field();
@@ -57,7 +57,7 @@ namespace
     double advance(const unsigned int n)
     {
       auto &g = channel_grains;
-      for (unsigned int step = 0; step < n && std::abs(g.vy[0]) < 1e3 * v_start; ++step)
+      for (unsigned int step = 0; step < n && std::abs(g.velocity[1][0]) < 1e3 * v_start; ++step)
         {
           channel.step(g, false);
           const double dt = channel.settings.dt;
@@ -65,11 +65,11 @@ namespace
             {
               const double inertia = g.mass[k] + channel.loads.mass_added_to(k);
               const double m       = inertia + dt * channel.loads.drag[k];
-              g.vx[k]              = (inertia * g.vx[k] + dt * channel.loads.fx[k]) / m;
-              g.vy[k]              = (inertia * g.vy[k] + dt * channel.loads.fy[k]) / m;
+              g.velocity[0][k]     = (inertia * g.velocity[0][k] + dt * channel.loads.force[0][k]) / m;
+              g.velocity[1][k]     = (inertia * g.velocity[1][k] + dt * channel.loads.force[1][k]) / m;
             }
         }
-      return g.vy[g.n() / 2] / v_start;
+      return g.velocity[1][g.n() / 2] / v_start;
     }
 
     static double rate(const double eps, const double added_mass = 0.)

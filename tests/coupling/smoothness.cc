@@ -38,10 +38,11 @@ namespace
         for (std::size_t p = 0; p < at_pieces.size(); ++p)
           for (unsigned int c = 0; c < 2; ++c)
             f[c] += map.terms().shape[p].area *
-                    (gamma * (at_pieces[p].u[c] - (c == 0 ? grain.vx[0] : grain.vy[0])) - at_pieces[p].grad_p[c]);
+                    (gamma * (at_pieces[p].u[c] - (c == 0 ? grain.velocity[0][0] : grain.velocity[1][0])) -
+                     at_pieces[p].grad_p[c]);
         force.push_back(f);
-        grain.x[0] += step * d * std::cos(angle);
-        grain.y[0] += step * d * std::sin(angle);
+        grain.position[0][0] += step * d * std::cos(angle);
+        grain.position[1][0] += step * d * std::sin(angle);
       }
     return smoothness(force);
   }

@@ -84,7 +84,7 @@ namespace
         rate.set(eps, k == 0 ? eps : old, dt);
         for (std::size_t p = 0; p < map.terms().n_pieces(); ++p)
           map.terms().exchange[p].a = {
-            {form == Form::flux ? grains.vx[0] : 0., form == Form::flux ? grains.vy[0] : 0.}};
+            {form == Form::flux ? grains.velocity[0][0] : 0., form == Form::flux ? grains.velocity[1][0] : 0.}};
         bed::fluid::VansProblem<2> problem{};
         problem.dt            = dt;
         problem.void_fraction = &eps;
@@ -98,8 +98,8 @@ namespace
           range.push_back(*std::max_element(p.begin(), p.end()) - *std::min_element(p.begin(), p.end()));
         for (std::size_t i = 0; i < grains.n(); ++i)
           {
-            grains.x[i] += dt * grains.vx[i];
-            grains.y[i] += dt * grains.vy[i];
+            grains.position[0][i] += dt * grains.velocity[0][i];
+            grains.position[1][i] += dt * grains.velocity[1][i];
           }
       }
     return range;
@@ -117,10 +117,10 @@ namespace
         grains.radius[i]       = one.radius[0];
         grains.fluid_radius[i] = one.fluid_radius[0];
         grains.mass[i]         = one.mass[0];
-        grains.x[i]            = one.x[0] + (i % n - 0.5 * (n - 1.)) * 1.4 * d;
-        grains.y[i]            = one.y[0] + (i / n - 0.5 * (n - 1.)) * 1.4 * d;
-        grains.vx[i]           = one.vx[0];
-        grains.vy[i]           = one.vy[0];
+        grains.position[0][i]  = one.position[0][0] + (i % n - 0.5 * (n - 1.)) * 1.4 * d;
+        grains.position[1][i]  = one.position[1][0] + (i / n - 0.5 * (n - 1.)) * 1.4 * d;
+        grains.velocity[0][i]  = one.velocity[0][0];
+        grains.velocity[1][i]  = one.velocity[1][0];
       }
     return grains;
   }

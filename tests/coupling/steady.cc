@@ -30,7 +30,7 @@ namespace
     EXPECT_TRUE(report.steady);
     EXPECT_EQ(channel.solver.flux(3), flux);
     EXPECT_EQ(channel.coupling.fluid_force(), force);
-    EXPECT_EQ(channel.loads.fy, loads.fy);
+    EXPECT_EQ(channel.loads.force[1], loads.force[1]);
     EXPECT_GT(report.force_scale, 0.);
 
     // computed all the same, it is the same
@@ -43,11 +43,11 @@ namespace
     EXPECT_TRUE(report.steady);
 
     // a grain's speed, its place, the time step, the head
-    bed.grains.vy[7] = 1e-9;
+    bed.grains.velocity[1][7] = 1e-9;
     step();
     EXPECT_FALSE(report.steady);
-    bed.grains.vy[7] = 0.;
-    bed.grains.x[7] += 1e-4 * bed.d;
+    bed.grains.velocity[1][7] = 0.;
+    bed.grains.position[0][7] += 1e-4 * bed.d;
     step();
     EXPECT_FALSE(report.steady);
     for (n = 0; n < 200 && !report.steady; ++n)

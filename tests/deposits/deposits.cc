@@ -118,7 +118,7 @@ TEST(Deposits, SettledBedStandsAndItsWallsCarryIt)
   double weight = 0.;
   for (std::size_t k = 0; k < grains.n(); ++k)
     {
-      loads.fy[k] = -grains.mass[k] * 9.81;
+      loads.force[1][k] = -grains.mass[k] * 9.81;
       weight += grains.mass[k] * 9.81;
     }
   const auto before = grains;
@@ -139,7 +139,7 @@ TEST(Deposits, SettledBedStandsAndItsWallsCarryIt)
       EXPECT_NEAR(support, 1., 1e-4) << warm;
     }
   for (std::size_t k = 0; k < grains.n(); ++k)
-    EXPECT_NEAR(grains.y[k], before.y[k], 2e-3 * 2e-4);
+    EXPECT_NEAR(grains.position[1][k], before.position[1][k], 2e-3 * 2e-4);
 }
 
 // A run that starts from a settled bed, without knowing its contact forces, leaves it where it is, with long steps and
@@ -160,7 +160,7 @@ TEST(Deposits, SettledBedStays)
       double weight = 0., support = 0.;
       for (std::size_t k = 0; k < grains.n(); ++k)
         {
-          loads.fy[k] = -grains.mass[k] * 9.81;
+          loads.force[1][k] = -grains.mass[k] * 9.81;
           weight += grains.mass[k] * 9.81;
         }
       const auto n_steps = static_cast<int>(std::lround(0.01 / dt));
@@ -169,7 +169,8 @@ TEST(Deposits, SettledBedStays)
           support -= force[1] / weight / n_steps;
       EXPECT_NEAR(support, 1., 1e-4) << dt;
       for (std::size_t k = 0; k < grains.n(); ++k)
-        EXPECT_LT(std::hypot(grains.x[k] - seeds[k].x, grains.y[k] - seeds[k].y), 3e-4 * 2e-4) << dt;
+        EXPECT_LT(std::hypot(grains.position[0][k] - seeds[k].x, grains.position[1][k] - seeds[k].y), 3e-4 * 2e-4)
+          << dt;
     }
 }
 
@@ -186,11 +187,11 @@ TEST(Deposits, PouredDiscsDoNotOverlap)
       grains.resize(100000);
       for (std::size_t k = 0; k < grains.n(); ++k)
         {
-          grains.id[k]     = static_cast<GrainId>(k);
-          grains.radius[k] = 0.5 * d * random.uniform(1., 1.2);
-          const auto p     = pour.add(grains.radius[k], random);
-          grains.x[k]      = p[0];
-          grains.y[k]      = p[1];
+          grains.id[k]          = static_cast<GrainId>(k);
+          grains.radius[k]      = 0.5 * d * random.uniform(1., 1.2);
+          const auto p          = pour.add(grains.radius[k], random);
+          grains.position[0][k] = p[0];
+          grains.position[1][k] = p[1];
         }
       DepositContext c;
       c.lower = box.lower;
@@ -268,11 +269,11 @@ TEST(Deposits, PeriodicInBothDirections)
 // A periodic bed leaves the mean velocity what it is: it neither falls nor drifts sideways once it has settled.
 TEST(Deposits, PeriodicSettledBedStays)
 {
-  auto c             = context(5e-3, 2e-2);
-  c.periodicity      = {c.lower, {{5e-3, 0.}}};
-  const auto  seeds  = make("settled bed", "set Number of grains = 800\nset Cache folder =", c);
-  GrainArrays grains = arrays(seeds);
-  grains.x0          = grains.x;
+  auto c                     = context(5e-3, 2e-2);
+  c.periodicity              = {c.lower, {{5e-3, 0.}}};
+  const auto  seeds          = make("settled bed", "set Number of grains = 800\nset Cache folder =", c);
+  GrainArrays grains         = arrays(seeds);
+  grains.initial_position[0] = grains.position[0];
   ContactStepper stepper;
   stepper.set_walls({{c.lower, {{c.upper[0], c.lower[1]}}, {{0., 0.}}, "bottom"}});
   stepper.set_periodicity(c.periodicity);
@@ -283,14 +284,15 @@ TEST(Deposits, PeriodicSettledBedStays)
   double weight = 0., support = 0.;
   for (std::size_t k = 0; k < grains.n(); ++k)
     {
-      loads.fy[k] = -grains.mass[k] * 9.81;
+      loads.force[1][k] = -grains.mass[k] * 9.81;
       weight += grains.mass[k] * 9.81;
     }
   for (int step = 0; step < 10; ++step)
     support += stepper.advance(grains, loads, 1e-3, {{0., -9.81}}).wall_force["bottom"][1] / weight / -10.;
   EXPECT_NEAR(support, 1., 1e-4);
   for (std::size_t k = 0; k < grains.n(); ++k)
-    EXPECT_LT(std::hypot(grains.x[k] - grains.x0[k], grains.y[k] - seeds[k].y), 1e-3 * 2e-4);
+    EXPECT_LT(std::hypot(grains.position[0][k] - grains.initial_position[0][k], grains.position[1][k] - seeds[k].y),
+              1e-3 * 2e-4);
 }
 
 // Packing is measured exactly enough: a square lattice has pi / 4 (d / a)^2.

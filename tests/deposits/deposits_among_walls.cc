@@ -63,12 +63,12 @@ namespace
     GrainLoads loads;
     loads.reset(grains.n());
     for (std::size_t k = 0; k < grains.n(); ++k)
-      loads.fy[k] = -grains.mass[k] * 9.81;
+      loads.force[1][k] = -grains.mass[k] * 9.81;
     for (int step = 0; step < 20; ++step)
       stepper.advance(grains, loads, 5e-4, {{0., -9.81}});
     int moved = 0;
     for (std::size_t k = 0; k < grains.n(); ++k)
-      moved += std::hypot(grains.x[k] - seeds[k].x, grains.y[k] - seeds[k].y) > 0.01 * d;
+      moved += std::hypot(grains.position[0][k] - seeds[k].x, grains.position[1][k] - seeds[k].y) > 0.01 * d;
     EXPECT_LE(moved, static_cast<int>(grains.n() / 100));
   }
 

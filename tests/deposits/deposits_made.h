@@ -29,11 +29,11 @@ namespace alluvium::deposits::test
     grains.resize(seeds.size());
     for (std::size_t k = 0; k < seeds.size(); ++k)
       {
-        grains.id[k]     = static_cast<GrainId>(k);
-        grains.x[k]      = seeds[k].x;
-        grains.y[k]      = seeds[k].y;
-        grains.radius[k] = seeds[k].radius;
-        grains.mass[k]   = seeds[k].density * M_PI * seeds[k].radius * seeds[k].radius;
+        grains.id[k]          = static_cast<GrainId>(k);
+        grains.position[0][k] = seeds[k].x;
+        grains.position[1][k] = seeds[k].y;
+        grains.radius[k]      = seeds[k].radius;
+        grains.mass[k]        = seeds[k].density * M_PI * seeds[k].radius * seeds[k].radius;
       }
     return grains;
   }

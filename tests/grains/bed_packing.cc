@@ -20,8 +20,8 @@ namespace
           const std::size_t k = g.n();
           g.resize(k + 1);
           g.id[k]           = k;
-          g.x[k]            = x + (i + 0.5) * d;
-          g.y[k]            = y + (j + 0.5) * d;
+          g.position[0][k]  = x + (i + 0.5) * d;
+          g.position[1][k]  = y + (j + 0.5) * d;
           g.radius[k]       = 0.5 * d;
           g.fluid_radius[k] = 0.4 * d;
         }

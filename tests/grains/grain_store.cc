@@ -1,13 +1,16 @@
 #include <alluvium/contacts/grain_checkpoint.h>
+#include <alluvium/grains/grain_columns.h>
 #include <alluvium/grains/grain_store.h>
 #include <alluvium/utilities/user_error.h>
 
+#include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/grid/tria.h>
 #include <deal.II/particles/particle_handler.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -30,41 +33,62 @@ namespace
     GrainArrays     grains;
     grains.resize(n);
     for (std::size_t i = 0; i < n; ++i)
-      {
-        grains.id[i]     = i;
-        grains.radius[i] = radius * (0.8 + 0.2 * uniform());
-        for (auto *v : {&grains.x,
-                        &grains.y,
-                        &grains.fluid_radius,
-                        &grains.mass,
-                        &grains.vx,
-                        &grains.vy,
-                        &grains.omega,
-                        &grains.fcx,
-                        &grains.fcy,
-                        &grains.x0,
-                        &grains.y0})
-          (*v)[i] = uniform();
-      }
+      grains.id[i] = i;
+    for_each_column(grains, [&](std::vector<double> &values, const GrainColumn &) {
+      for (double &value : values)
+        value = uniform();
+    });
+    for (double &r : grains.radius)
+      r = radius * (0.8 + 0.2 * r);
     return grains;
-  }
-
-  std::vector<const std::vector<double> *> arrays(const GrainArrays &g)
-  {
-    return {&g.x, &g.y, &g.radius, &g.fluid_radius, &g.mass, &g.vx, &g.vy, &g.omega, &g.fcx, &g.fcy, &g.x0, &g.y0};
   }
 
   void expect_equal(const GrainArrays &a, const GrainArrays &b)
   {
     EXPECT_EQ(a.id, b.id);
-    for (std::size_t k = 0; k < arrays(a).size(); ++k)
-      EXPECT_EQ(*arrays(a)[k], *arrays(b)[k]) << "array " << k;
+    for (const GrainColumn &column : grain_columns)
+      for (unsigned int c = 0; c < column.n_components; ++c)
+        EXPECT_EQ(column.values(a, c), column.values(b, c)) << column.name << ' ' << c;
   }
 
-  std::size_t n_on_all_ranks(const GrainStore &store)
+  /** Every grain is a particle on one rank, and has there all that the arrays say, in the cell around it. */
+  void expect_particles_follow(GrainStore &store)
   {
-    return dealii::Utilities::MPI::sum(static_cast<unsigned long long>(store.n_local_grains()), MPI_COMM_WORLD);
+    const auto         &particles = store.particles();
+    const auto         &grains    = store.grains();
+    std::vector<double> found(grains.n(), 0.);
+    for (const auto &particle : particles)
+      {
+        const std::size_t i =
+          std::lower_bound(grains.id.begin(), grains.id.end(), particle.get_id()) - grains.id.begin();
+        ASSERT_LT(i, grains.n());
+        found[i] += 1.;
+        unsigned int p = 0;
+        for (const GrainColumn &column : grain_columns)
+          for (unsigned int c = 0; c < column.n_components; ++c)
+            if (std::string(column.name) == "position")
+              {
+                EXPECT_EQ(particle.get_location()[c], column.values(grains, c)[i]);
+              }
+            else
+              {
+                EXPECT_EQ(particle.get_properties()[p++], column.values(grains, c)[i]) << column.name;
+              }
+        EXPECT_TRUE(particle.get_surrounding_cell()->is_locally_owned());
+      }
+    dealii::Utilities::MPI::sum(found, MPI_COMM_WORLD, found);
+    EXPECT_EQ(found, std::vector<double>(grains.n(), 1.));
   }
+
+  struct Store : GrainStore
+  {
+    Store(const GrainArrays &grains, const double height = 1., const double skin = 0.002)
+      : GrainStore(MPI_COMM_WORLD)
+    {
+      this->grains() = grains;
+      initialize({{0., 0.}}, {{1., height}}, skin);
+    }
+  };
 
   template <typename Error, typename Function>
   std::string error_of(const Function &function)
@@ -86,18 +110,15 @@ namespace
     return text.find(part) != std::string::npos;
   }
 
-  TEST(GrainStore, GivesBackWhatItGotToTheBit)
+  TEST(GrainStore, ParticlesAreWhatTheArraysSay)
   {
-    const auto grains = make_grains(1000);
-    GrainStore store(MPI_COMM_WORLD);
-    store.initialize(grains, {{0., 0.}}, {{1., 1.}}, 0.002);
-    EXPECT_EQ(store.n_grains(), 1000u);
-    EXPECT_EQ(n_on_all_ranks(store), 1000u);
+    Store store(make_grains(1000));
+    expect_particles_follow(store);
     if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 2)
       {
-        EXPECT_GT(store.n_local_grains(), 300u);
+        EXPECT_GT(store.n_local_particles(), 300u);
       }
-    expect_equal(store.gather(), grains);
+    expect_equal(store.grains(), make_grains(1000));
   }
 
   // The grid goes with the grains, not with the box over their diameter squared.
@@ -107,128 +128,109 @@ namespace
       for (const double height : {1., 1e-3})
         {
           auto grains = make_grains(3, radius);
-          for (double &y : grains.y)
+          for (double &y : grains.position[1])
             y *= height;
-          GrainStore store(MPI_COMM_WORLD);
-          store.initialize(grains, {{0., 0.}}, {{1., height}}, 0.1 * radius);
+          Store store(grains, height, 0.1 * radius);
           for (const auto &particle : store.particles())
             EXPECT_LE(particle.get_surrounding_cell()->get_triangulation().n_global_active_cells(), 4096u);
-          expect_equal(store.gather(), grains);
-          for (double &x : grains.x)
+          expect_particles_follow(store);
+          for (double &x : store.grains().position[0])
             x = 1. - x;
-          store.scatter(grains);
-          expect_equal(store.gather(), grains);
+          expect_particles_follow(store);
         }
   }
 
-  TEST(GrainStore, FollowsMotionOverManySteps)
+  TEST(GrainStore, ParticlesFollowMotionOverManySteps)
   {
-    auto       grains = make_grains(2000);
-    GrainStore store(MPI_COMM_WORLD);
-    store.initialize(grains, {{0., 0.}}, {{1., 1.}}, 0.002);
+    Store store(make_grains(2000));
+    auto &grains = store.grains();
     for (unsigned int step = 0; step < 50; ++step)
       {
         // a vortex: grains go from rank to rank
         for (std::size_t i = 0; i < grains.n(); ++i)
           {
-            const double dx = grains.x[i] - 0.5, dy = grains.y[i] - 0.5, angle = 0.1;
-            grains.x[i]  = std::min(1., std::max(0., 0.5 + std::cos(angle) * dx - std::sin(angle) * dy));
-            grains.y[i]  = std::min(1., std::max(0., 0.5 + std::sin(angle) * dx + std::cos(angle) * dy));
-            grains.vx[i] = step + i;
+            const double dx = grains.position[0][i] - 0.5, dy = grains.position[1][i] - 0.5, angle = 0.1;
+            grains.position[0][i] = std::min(1., std::max(0., 0.5 + std::cos(angle) * dx - std::sin(angle) * dy));
+            grains.position[1][i] = std::min(1., std::max(0., 0.5 + std::sin(angle) * dx + std::cos(angle) * dy));
+            grains.velocity[0][i] = step + i;
           }
-        store.scatter(grains);
-        if (step == 25)
-          store.rebalance();
+        if (step % 3 == 0) // not asked for in each step
+          store.particles();
       }
-    EXPECT_EQ(n_on_all_ranks(store), 2000u);
-    expect_equal(store.gather(), grains);
+    expect_particles_follow(store);
   }
 
   TEST(GrainStore, KeepsGrainsThatJumpFarOrSitOnVertices)
   {
-    auto       grains = make_grains(400, 0.05);
-    GrainStore store(MPI_COMM_WORLD);
-    store.initialize(grains, {{0., 0.}}, {{1., 1.}}, 0.);
+    Store store(make_grains(400, 0.05), 1., 0.);
+    auto &grains = store.grains();
     // cells are of size 1.2 / 12 or near it; sweep positions on multiples of many fractions, vertices among them
     const double lower = 0. - 0.1, upper = 1.1;
     for (const unsigned int n : {4, 8, 10, 11, 12, 13, 16, 24})
       {
         for (std::size_t i = 0; i < grains.n(); ++i)
           {
-            grains.x[i] = lower + (upper - lower) * ((7 * i) % (n + 1)) / n;
-            grains.y[i] = lower + (upper - lower) * ((11 * i + 3) % (n + 1)) / n;
-            grains.x[i] = std::min(1.05, std::max(-0.05, grains.x[i]));
-            grains.y[i] = std::min(1.05, std::max(-0.05, grains.y[i]));
+            grains.position[0][i] = lower + (upper - lower) * ((7 * i) % (n + 1)) / n;
+            grains.position[1][i] = lower + (upper - lower) * ((11 * i + 3) % (n + 1)) / n;
+            for (auto &x : grains.position)
+              x[i] = std::min(1.05, std::max(-0.05, x[i]));
           }
-        store.scatter(grains);
-        expect_equal(store.gather(), grains);
+        expect_particles_follow(store);
       }
   }
 
   TEST(GrainStore, FollowsALoneJump)
   {
-    auto       grains = make_grains(300);
-    GrainStore store(MPI_COMM_WORLD);
-    store.initialize(grains, {{0., 0.}}, {{1., 1.}}, 0.002);
+    Store store(make_grains(300));
     for (const double position : {0.01, 0.99, 0.5})
       {
-        grains.x[7] = position;
-        grains.y[7] = 1. - position;
-        store.scatter(grains);
-        EXPECT_EQ(n_on_all_ranks(store), 300u);
+        store.grains().position[0][7] = position;
+        store.grains().position[1][7] = 1. - position;
+        expect_particles_follow(store);
         EXPECT_EQ(store.particles().n_global_particles(), 300u);
-        expect_equal(store.gather(), grains);
       }
+    store.grains().position[0][7] = 0.9;
+    store.particles();
     EXPECT_EQ(store.n_rescued(), 1u);
+  }
+
+  // Those that have left are no particles any more, those that come are.
+  TEST(GrainStore, FollowsOtherGrains)
+  {
+    Store store(make_grains(300));
+    store.particles();
+    store.grains() = make_grains(200);
+    expect_particles_follow(store);
+    EXPECT_EQ(store.particles().n_global_particles(), 200u);
+    store.grains() = make_grains(250);
+    expect_particles_follow(store);
   }
 
   TEST(GrainStore, NamesALostGrain)
   {
-    auto       grains = make_grains(100);
-    GrainStore store(MPI_COMM_WORLD);
-    store.initialize(grains, {{0., 0.}}, {{1., 1.}}, 0.);
-    grains.y[42]            = -3.;
-    const std::string error = error_of<std::runtime_error>([&] { store.scatter(grains); });
+    Store store(make_grains(100), 1., 0.);
+    auto &x                 = store.grains().position;
+    x[1][42]                = -3.;
+    const std::string error = error_of<UserError>([&] { store.check_positions(); });
     EXPECT_TRUE(contains(error, "Grain 42")) << error;
     EXPECT_TRUE(contains(error, "-3) m")) << error;
-    grains.y[42] = 0.5;
-    grains.x[17] = std::nan("");
-    EXPECT_TRUE(contains(error_of<std::runtime_error>([&] { store.scatter(grains); }), "Grain 17"));
-    // the store is as before
-    grains.x[17] = 0.1;
-    store.scatter(grains);
-    expect_equal(store.gather(), grains);
-  }
-
-  TEST(GrainStore, RebalancesAHeapInOneCorner)
-  {
-    auto grains = make_grains(2000);
-    for (std::size_t i = 0; i < grains.n(); ++i)
-      {
-        grains.x[i] *= 0.2;
-        grains.y[i] *= 0.2;
-      }
-    GrainStore store(MPI_COMM_WORLD);
-    store.initialize(grains, {{0., 0.}}, {{1., 1.}}, 0.002);
-    store.rebalance();
-    const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-    EXPECT_NEAR(
-      store.n_local_grains(), 2000. / n_ranks, 0.3 * 2000. / n_ranks); // p4est keeps families of four together
-    expect_equal(store.gather(), grains);
-    store.scatter(grains);
-    expect_equal(store.gather(), grains);
+    x[1][42] = 0.5;
+    x[0][17] = std::nan("");
+    EXPECT_TRUE(contains(error_of<UserError>([&] { store.check_positions(); }), "Grain 17"));
+    x[0][17] = 0.1;
+    store.check_positions();
+    store.let_leave(true);
+    x[0][17] = 7.;
+    store.check_positions();
+    EXPECT_EQ(store.particles().n_global_particles(), 100u);
   }
 
   TEST(GrainStore, CanBeEmptyOrTiny)
   {
-    GrainStore store(MPI_COMM_WORLD);
-    store.initialize(make_grains(0), {{0., 0.}}, {{1., 1.}}, 0.);
-    EXPECT_EQ(store.gather().n(), 0u);
-    store.scatter(make_grains(0));
-    store.rebalance();
-    const auto one = make_grains(1, 0.5); // as large as the domain
-    store.initialize(one, {{0., 0.}}, {{1., 1.}}, 0.1);
-    expect_equal(store.gather(), one);
+    Store none(make_grains(0), 1., 0.);
+    EXPECT_EQ(none.particles().n_global_particles(), 0u);
+    Store one(make_grains(1, 0.5), 1., 0.1); // as large as the domain
+    expect_particles_follow(one);
   }
 
   /** A folder of this test, the same on all ranks, removed at its end. */
@@ -312,16 +314,16 @@ namespace
 
   TEST_F(GrainFiles, ParaviewOutputHasAllFields)
   {
-    GrainStore store(MPI_COMM_WORLD);
-    store.initialize(make_grains(100), {{0., 0.}}, {{1., 1.}}, 0.);
-    store.write_vtu(file("grains.vtu"));
+    Store store(make_grains(100), 1., 0.);
+    store.output([&](auto &data) { data.write_vtu_in_parallel(file("grains.vtu"), MPI_COMM_WORLD); });
     MPI_Barrier(MPI_COMM_WORLD);
     std::ifstream      in(file("grains.vtu"), std::ios::binary);
     std::ostringstream text;
     text << in.rdbuf();
     for (const std::string name : {"id", "radius", "displacement", "velocity", "angular_velocity", "contact_force"})
       EXPECT_TRUE(contains(text.str(), "Name=\"" + name + "\"")) << name;
-    EXPECT_TRUE(contains(text.str(), "vtkZLibDataCompressor"));
+    for (const GrainColumn &column : grain_columns)
+      EXPECT_EQ(contains(text.str(), "Name=\"" + std::string(column.name) + "\""), column.in_pictures) << column.name;
     EXPECT_TRUE(contains(text.str(), "Name=\"velocity\" NumberOfComponents=\"3\""));
     EXPECT_TRUE(contains(text.str(), "</VTKFile>"));
   }

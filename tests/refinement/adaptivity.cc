@@ -27,10 +27,10 @@ namespace
     for (double y = bottom + d / 2.; y < top; y += d)
       for (double x = d / 2.; x < 1.; x += d)
         {
-          result.x.push_back(x);
-          result.y.push_back(y);
+          result.position[0].push_back(x);
+          result.position[1].push_back(y);
         }
-    const auto n = result.n();
+    const auto n = result.position[0].size();
     result.resize(n);
     for (std::size_t i = 0; i < n; ++i)
       {
@@ -84,9 +84,9 @@ namespace
     // two grains fly above one column and one lies below another
     const auto n = grains.n();
     grains.resize(n + 3);
-    grains.x[n] = 0.03, grains.y[n] = 0.9, grains.radius[n] = d / 2.;
-    grains.x[n + 1] = 0.05, grains.y[n + 1] = 0.8, grains.radius[n + 1] = d / 2.;
-    grains.x[n + 2] = 0.7, grains.y[n + 2] = 0.1, grains.radius[n + 2] = d / 2.;
+    grains.position[0][n] = 0.03, grains.position[1][n] = 0.9, grains.radius[n] = d / 2.;
+    grains.position[0][n + 1] = 0.05, grains.position[1][n + 1] = 0.8, grains.radius[n + 1] = d / 2.;
+    grains.position[0][n + 2] = 0.7, grains.position[1][n + 2] = 0.1, grains.radius[n + 2] = d / 2.;
     const auto disturbed = find_bed_faces(grains, 0., 1.);
     EXPECT_NEAR(disturbed.top(), 0.5, 1e-12);
     EXPECT_NEAR(disturbed.bottom(), 0.25, 1e-12);
@@ -99,8 +99,8 @@ namespace
     // a box one and a half columns wide: two, also shifted and in other units
     const auto height = [](const double factor, const double shift) {
       grains::GrainArrays grains;
-      grains.x = {2. * factor + shift, 6. * factor + shift, 9. * factor + shift};
-      grains.y = {0., 2. * std::abs(factor), 6. * std::abs(factor)};
+      grains.position[0] = {2. * factor + shift, 6. * factor + shift, 9. * factor + shift};
+      grains.position[1] = {0., 2. * std::abs(factor), 6. * std::abs(factor)};
       grains.resize(3);
       grains.radius.assign(3, 2.2 * std::abs(factor));
       const double left = shift + std::min(0., 12. * 4.4 * factor), right = shift + std::max(0., 12. * 4.4 * factor);
@@ -112,7 +112,7 @@ namespace
         EXPECT_NEAR(height(factor, shift), height(1., 0.), 1e-6) << factor << ' ' << shift;
     const auto between = [](const double offset) {
       auto grains = make_bed(d, 0., 0.5);
-      for (double &x : grains.x)
+      for (double &x : grains.position[0])
         x += d / 2. + offset; // those of every eighth line of grains stand between columns
       return find_bed_faces(grains, 0., 1.).mean_height();
     };
@@ -123,8 +123,8 @@ namespace
   {
     auto grains = make_bed(d, 0., 0.5);
     for (std::size_t i = 0; i < grains.n(); ++i)
-      if (grains.x[i] > 0.5)
-        grains.y[i] *= 0.5;
+      if (grains.position[0][i] > 0.5)
+        grains.position[1][i] *= 0.5;
     const auto faces = find_bed_faces(grains, 0., 1.);
     EXPECT_NEAR(faces.distance_to_top({{0.1, 0.5}}, {{0.2, 0.6}}), 0., 1e-12);
     EXPECT_NEAR(faces.distance_to_top({{0.8, 0.55}}, {{0.9, 0.6}}), 0.3, 1.5 * d);
@@ -273,7 +273,8 @@ namespace
 
     const auto boil = [&](const double x, const double speed) {
       for (std::size_t i = 0; i < grains.n(); ++i)
-        grains.vy[i] = std::hypot(grains.x[i] - x, grains.y[i] - 0.4) < 3. * d ? speed : 0.;
+        grains.velocity[1][i] =
+          std::hypot(grains.position[0][i] - x, grains.position[1][i] - 0.4) < 3. * d ? speed : 0.;
     };
     boil(0.25, 1.01 * scale);
     EXPECT_TRUE(scene.adaptivity.adapt(*scene.mesh, context, {}, {}).satisfied);
@@ -427,7 +428,7 @@ namespace
     Scene       scene({{"Mesh refinement/Max cells", n}}, context);
     auto        tilted = make_bed(d, 0.25, 0.5);
     for (std::size_t i = 0; i < tilted.n(); ++i)
-      tilted.y[i] += tilted.x[i] < 0.5 ? 0.3 : -0.2;
+      tilted.position[1][i] += tilted.position[0][i] < 0.5 ? 0.3 : -0.2;
     const auto report = scene.adaptivity.adapt(*scene.mesh, context_of(tilted), {}, {});
     EXPECT_LE(report.n_cells, std::stoul(n));
   }

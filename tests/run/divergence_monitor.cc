@@ -81,8 +81,8 @@ TEST(DivergenceMonitor, GoesCalmAgain)
 TEST(DivergenceMonitor, SeesWhatIsNoNumber)
 {
   Scene scene;
-  scene.model.grains.vx[0] = std::numeric_limits<double>::quiet_NaN();
-  const Sign sign          = scene.step(std::numeric_limits<double>::quiet_NaN(), 0.);
+  scene.model.grains.velocity[0][0] = std::numeric_limits<double>::quiet_NaN();
+  const Sign sign                   = scene.step(std::numeric_limits<double>::quiet_NaN(), 0.);
   EXPECT_NE(sign.what.find("not a number"), std::string::npos);
   EXPECT_EQ(sign.near, "grain 0");
 }

@@ -18,8 +18,8 @@ namespace alluvium::contacts
 
     /**
      * Final velocities from the impulses of @p problem themselves, so that momentum is balanced to round-off; positions
-     * from them; impulses are added to the grains' fcx, fcy. Returns how many contacts of this rank carry something.
-     * Collective.
+     * from them; the grains' contact_force gets the impulses added. Returns how many contacts of this rank carry
+     * something. Collective.
      */
     unsigned int move(const ContactProblem   &problem,
                       const ContactActiveSet &active,

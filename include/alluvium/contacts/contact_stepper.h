@@ -73,7 +73,7 @@ namespace alluvium::contacts
     /** What this rank has sent so far for the sake of contacts. */
     ContactTraffic traffic() const;
 
-    /** Let the box repeat itself: grains that leave it come in again at the other side, with x0 and y0 moved along. */
+    /** Let the box repeat itself: grains that leave it come in again at the other side, initial positions along. */
     void set_periodicity(const grains::Periodicity &periodicity);
 
     /**

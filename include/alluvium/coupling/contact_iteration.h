@@ -39,12 +39,21 @@ namespace alluvium::coupling
     /** What contacts make of the grains, and the forces that the fluid has not seen in it. */
     struct Answer
     {
-      grains::GrainArrays     grains;
       contacts::ContactReport report;
       GrainMotion             motion;
       std::vector<double>     unseen; // Coupling::unseen_force()
     };
-    Answer move(const grains::GrainArrays   &grains,
+
+    /** What a repetition starts from. */
+    struct Start
+    {
+      contacts::ContactMemory          contacts;
+      std::vector<std::vector<double>> columns; // of the grains, that a step changes
+    };
+
+    Start  remember(const grains::GrainArrays &grains) const;
+    void   go_back_to(const Start &start, grains::GrainArrays &grains);
+    Answer move(grains::GrainArrays         &grains,
                 const grains::GrainLoads    &loads,
                 double                       dt,
                 const std::array<double, 2> &gravity,

@@ -115,9 +115,11 @@ namespace alluvium::coupling
     /**
      * Per grain, what it got from the fluid in the latest step less what the fluid gave it, x and y one after the
      * other [N/m]. Where drag is implicit that is G (v* - v), because the grain took another velocity than the fluid
-     * saw. The grains of step() must still be as they were; @p motion is what the loads made of them.
+     * saw. @p before are the grains' velocities at the beginning of the step [m/s], @p motion is what the loads
+     * made of them.
      */
-    std::vector<double> unseen_force(const GrainMotion &motion, const grains::GrainLoads &loads) const;
+    std::vector<double>
+    unseen_force(const grains::Components &before, const GrainMotion &motion, const grains::GrainLoads &loads) const;
     /** The mean reduced weight of a grain, or the mean force of the fluid on one, whichever is larger [N/m]. */
     double typical_force() const;
     /** Put the sum of unseen_force() into the report. */

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <alluvium/utilities/constants.h>
+
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -8,32 +11,43 @@ namespace alluvium::grains
 {
   using GrainId = std::uint32_t;
 
+  /** One array of numbers per component of a vector. */
+  using Components = std::array<std::vector<double>, 2>;
+
   /**
-   * The grains as plain contiguous arrays, sorted by id: what the contact solver and the coupling loop over. The
-   * persistent owner is GrainStore (deal.II's ParticleHandler), which gathers into this once a fluid step and scatters
-   * back. SI units, per unit depth; all vectors have n() entries.
+   * The grains as plain contiguous arrays, sorted by id: what contacts and coupling loop over. GrainStore owns those of
+   * a run. SI units, per unit depth; all arrays have n() entries. What a grain has stands once more in `grain_columns`
+   * (grain_columns.h), from which files, ranks and pictures follow.
    */
   struct GrainArrays
   {
     std::vector<GrainId> id;
-    std::vector<double>  x, y;         // centre [m]
-    std::vector<double>  radius;       // contact radius [m]: what touches
-    std::vector<double>  fluid_radius; // what the fluid sees [m]
-    std::vector<double>  mass;         // [kg/m]
-    std::vector<double>  vx, vy;       // [m/s]
-    std::vector<double>  omega;        // [rad/s], anticlockwise
-    std::vector<double>  fcx, fcy;     // mean contact force over the last fluid step [N/m]
-    std::vector<double>  x0, y0;       // where the grain was at t = 0 [m]
+    Components           position;         // of the centre [m]
+    std::vector<double>  radius;           // contact radius [m]: what touches
+    std::vector<double>  fluid_radius;     // what the fluid sees [m]
+    std::vector<double>  mass;             // [kg/m]
+    Components           velocity;         // [m/s]
+    std::vector<double>  omega;            // [rad/s], anticlockwise
+    Components           contact_force;    // mean over the last fluid step [N/m]
+    Components           initial_position; // at t = 0 [m]; a periodic box moves it along with the grain
 
-    std::size_t n() const { return x.size(); }
+    std::size_t n() const { return id.size(); }
 
-    void resize(const std::size_t size)
-    {
-      id.resize(size);
-      for (auto *v : {&x, &y, &radius, &fluid_radius, &mass, &vx, &vy, &omega, &fcx, &fcy, &x0, &y0})
-        v->resize(size, 0.);
-    }
+    /** New grains have zeros. */
+    void resize(std::size_t size);
   };
+
+  /** Volume of a disc per unit depth [m^2]. */
+  inline double disc_volume(const double radius)
+  {
+    return pi * radius * radius;
+  }
+
+  /** Mass of a disc of @p density [kg/m^3], per unit depth [kg/m]. */
+  inline double disc_mass(const double density, const double radius)
+  {
+    return density * pi * radius * radius; // in this order: all results have its round-off
+  }
 
   /** Moment of inertia of a disc about its centre, per unit depth [kg m]. */
   inline double disc_inertia(const double mass, const double radius)
@@ -44,12 +58,12 @@ namespace alluvium::grains
   /**
    * What acts on every grain during one fluid step besides contacts:
    *   (m + added_mass) dv/dt = force - drag * v + contacts,      I domega/dt = torque - spin_drag * omega + contacts.
-   * `drag` [N s/m^2] is G = sum over pieces of A gamma, zero where drag was explicit. All vectors have n() entries; the
+   * `drag` [N s/m^2] is G = sum over pieces of A gamma, zero where drag was explicit. All arrays have n() entries; the
    * last three are empty where the fluid gives neither added mass nor torque.
    */
   struct GrainLoads
   {
-    std::vector<double> fx, fy; // [N/m]
+    Components          force; // [N/m]
     std::vector<double> drag;
     std::vector<double> added_mass; // [kg/m]
     std::vector<double> torque;     // [N]
@@ -57,7 +71,7 @@ namespace alluvium::grains
 
     void reset(const std::size_t size)
     {
-      for (auto *v : {&fx, &fy, &drag})
+      for (auto *v : {&force[0], &force[1], &drag})
         v->assign(size, 0.);
       for (auto *v : {&added_mass, &torque, &spin_drag})
         v->clear();

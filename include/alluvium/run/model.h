@@ -82,7 +82,7 @@ namespace alluvium::run
     std::unique_ptr<fluid::FieldTransfer<dim>>       transfer;
 
     // the state
-    grains::GrainArrays           grains;
+    grains::GrainArrays          &grains = store.grains();
     grains::GrainLoads            loads;
     std::vector<std::uint8_t>     touched; // by others in the last step
     contacts::ContactReport       contact_report;

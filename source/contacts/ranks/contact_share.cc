@@ -1,4 +1,5 @@
 #include <alluvium/contacts/ranks/contact_share.h>
+#include <alluvium/grains/grain_columns.h>
 
 #include <algorithm>
 #include <array>
@@ -8,21 +9,20 @@ namespace alluvium::contacts
 {
   namespace
   {
-    using Column = std::vector<double> grains::GrainArrays::*;
+    using When = grains::GrainColumn::When;
 
-    /** What a step changes; the origins x0 and y0 move along where a grain leaves a periodic box. */
-    constexpr std::array<Column, 9> changing = {{&grains::GrainArrays::x,
-                                                 &grains::GrainArrays::y,
-                                                 &grains::GrainArrays::vx,
-                                                 &grains::GrainArrays::vy,
-                                                 &grains::GrainArrays::omega,
-                                                 &grains::GrainArrays::fcx,
-                                                 &grains::GrainArrays::fcy,
-                                                 &grains::GrainArrays::x0,
-                                                 &grains::GrainArrays::y0}};
-
-    constexpr std::array<Column, 3> constant = {
-      {&grains::GrainArrays::radius, &grains::GrainArrays::fluid_radius, &grains::GrainArrays::mass}};
+    /** Take of @p all grains' columns that are @p when the rows of @p numbers. */
+    void take_rows(const grains::GrainArrays        &all,
+                   const std::vector<std::uint32_t> &numbers,
+                   const When                        when,
+                   grains::GrainArrays              &some)
+    {
+      const auto from = columns_of(all, when);
+      const auto to   = columns_of(some, when);
+      for (std::size_t c = 0; c < from.size(); ++c)
+        for (std::size_t k = 0; k < numbers.size(); ++k)
+          (*to[c])[k] = (*from[c])[numbers[k]];
+    }
 
     constexpr unsigned int n_wire = 7; // numbers of an archive's entry on the wire
   }                                    // namespace
@@ -49,7 +49,7 @@ namespace alluvium::contacts
         ++work[p.j];
       }
     const std::vector<unsigned int> was_owner = std::move(partition.owner);
-    partition = make_partition(bisect(all.x, all.y, work, ranks), pairs, n_colours, rank);
+    partition = make_partition(bisect(all.position[0], all.position[1], work, ranks), pairs, n_colours, rank);
     if (fits(all))
       for (std::size_t k = 0; k < was_owner.size(); ++k)
         n_migrated += partition.owner[k] == rank && was_owner[k] != rank;
@@ -59,9 +59,7 @@ namespace alluvium::contacts
     grains.resize(n);
     for (std::size_t k = 0; k < n; ++k)
       grains.id[k] = all.id[partition.grains[k]];
-    for (const Column c : constant)
-      for (std::size_t k = 0; k < n; ++k)
-        (grains.*c)[k] = (all.*c)[partition.grains[k]];
+    take_rows(all, partition.grains, When::constant, grains);
     load(all, all_loads);
     return std::move(partition.pairs);
   }
@@ -76,14 +74,12 @@ namespace alluvium::contacts
   void ContactShare::load(const grains::GrainArrays &all, const grains::GrainLoads &all_loads)
   {
     const std::size_t n = grains.n();
-    for (const Column c : changing)
-      for (std::size_t k = 0; k < n; ++k)
-        (grains.*c)[k] = (all.*c)[partition.grains[k]];
+    take_rows(all, partition.grains, When::changing, grains);
     loads.reset(n);
     for (std::size_t k = 0; k < n; ++k)
       {
-        loads.fx[k]   = all_loads.fx[partition.grains[k]];
-        loads.fy[k]   = all_loads.fy[partition.grains[k]];
+        for (unsigned int d = 0; d < 2; ++d)
+          loads.force[d][k] = all_loads.force[d][partition.grains[k]];
         loads.drag[k] = all_loads.drag[partition.grains[k]];
       }
     for (auto v : {&grains::GrainLoads::added_mass, &grains::GrainLoads::torque, &grains::GrainLoads::spin_drag})
@@ -98,7 +94,9 @@ namespace alluvium::contacts
 
   void ContactShare::update_ghosts()
   {
-    ghosts.update_ghosts({&grains.x, &grains.y, &grains.vx, &grains.vy, &grains.omega});
+    // what a sub-step looks at in the other grain of a pair
+    ghosts.update_ghosts(
+      {&grains.position[0], &grains.position[1], &grains.velocity[0], &grains.velocity[1], &grains.omega});
   }
 
   std::vector<double> ContactShare::collect_rows(const std::vector<double> &mine, const unsigned int width)
@@ -123,22 +121,23 @@ namespace alluvium::contacts
 
   void ContactShare::collect(grains::GrainArrays &all, std::vector<std::uint8_t> &all_touched)
   {
-    constexpr unsigned int width = changing.size() + 1;
-    std::vector<double>    rows;
+    const auto          mine = columns_of(grains, When::changing), everyones = columns_of(all, When::changing);
+    const unsigned int  width = mine.size() + 1;
+    std::vector<double> rows;
     rows.reserve(width * n_owned());
     for (std::size_t k = 0; k < n_owned(); ++k)
       {
-        for (const Column c : changing)
-          rows.push_back((grains.*c)[k]);
+        for (const auto *column : mine)
+          rows.push_back((*column)[k]);
         rows.push_back(touched[k]);
       }
     rows = collect_rows(rows, width);
     for (std::size_t k = 0; k < all.n(); ++k)
       {
         const double *const row = &rows[width * k];
-        for (unsigned int c = 0; c < changing.size(); ++c)
-          (all.*changing[c])[k] = row[c];
-        all_touched[k] = row[changing.size()] != 0.;
+        for (unsigned int c = 0; c < everyones.size(); ++c)
+          (*everyones[c])[k] = row[c];
+        all_touched[k] = row[everyones.size()] != 0.;
       }
   }
 

@@ -58,8 +58,8 @@ namespace alluvium::contacts
     to_repeat                      = {};
     set_shared(sharing);
     grains::GrainArrays then        = all_now;
-    then.x                          = last.x;
-    then.y                          = last.y;
+    then.position[0]                = last.x;
+    then.position[1]                = last.y;
     const std::vector<double> walls = geometry.walls.positions();
     geometry.walls.place(last.wall_positions);
     neighbours.repeat(last, then, geometry);

@@ -43,12 +43,12 @@ namespace alluvium::contacts
     pairs       = find_candidates(grains, geometry, skin);
     n_colours   = colour_contacts(grains, pairs);
     searched_id = grains.id;
-    searched_x  = grains.x;
-    searched_y  = grains.y;
+    searched_x  = grains.position[0];
+    searched_y  = grains.position[1];
     n_owned     = grains.n();
     this->skin  = skin;
     searched    = true;
-    record      = {true, grains.x, grains.y, geometry.walls.positions(), skin, skin};
+    record      = {true, grains.position[0], grains.position[1], geometry.walls.positions(), skin, skin};
     carry(grains, pairs.discs, false);
     carry(grains, pairs.walls, true);
     pending    = {};
@@ -62,8 +62,8 @@ namespace alluvium::contacts
     disc_order.clear();
     wall_order.clear();
     searched_id   = grains.id;
-    searched_x    = grains.x;
-    searched_y    = grains.y;
+    searched_x    = grains.position[0];
+    searched_y    = grains.position[1];
     this->n_owned = n_owned;
   }
 
@@ -130,7 +130,7 @@ namespace alluvium::contacts
     double first = 0., second = 0.;
     for (std::size_t k = 0; k < n_owned; ++k)
       {
-        double dx = grains.x[k] - searched_x[k], dy = grains.y[k] - searched_y[k];
+        double dx = grains.position[0][k] - searched_x[k], dy = grains.position[1][k] - searched_y[k];
         periodicity.shorten(dx, dy);
         const double d = dx * dx + dy * dy;
         if (d > first)

@@ -20,7 +20,8 @@ namespace alluvium::contacts
     std::vector<Overlap>    overlaps;
     for (const ContactPair &p : candidates.discs)
       {
-        double dx = grains.x[p.j] - grains.x[p.i], dy = grains.y[p.j] - grains.y[p.i];
+        double dx = grains.position[0][p.j] - grains.position[0][p.i],
+               dy = grains.position[1][p.j] - grains.position[1][p.i];
         periodicity.shorten(dx, dy);
         const double depth = grains.radius[p.i] + grains.radius[p.j] - std::hypot(dx, dy);
         if (depth > tolerance)
@@ -29,7 +30,7 @@ namespace alluvium::contacts
     for (const ContactPair &p : candidates.walls)
       {
         ContactPoint point;
-        if (geometry.walls.touch(p.j, grains.x[p.i], grains.y[p.i], grains.radius[p.i], point) &&
+        if (geometry.walls.touch(p.j, grains.position[0][p.i], grains.position[1][p.i], grains.radius[p.i], point) &&
             -point.gap > tolerance)
           overlaps.push_back({grains.id[p.i], 0, walls[p.j].name.empty() ? "wall" : walls[p.j].name, -point.gap});
       }
@@ -49,7 +50,7 @@ namespace alluvium::contacts
     const Overlap     &worst = overlaps.front();
     const std::size_t  k     = std::lower_bound(grains.id.begin(), grains.id.end(), worst.a) - grains.id.begin();
     std::ostringstream text;
-    text << "Grain " << worst.a << " at (" << grains.x[k] << ", " << grains.y[k] << ") m overlaps "
+    text << "Grain " << worst.a << " at (" << grains.position[0][k] << ", " << grains.position[1][k] << ") m overlaps "
          << (worst.wall.empty() ? "grain " + std::to_string(worst.b) : "the wall '" + worst.wall + "'") << " by "
          << worst.depth << " m, " << worst.depth / (2. * grains.radius[k]) << " of its diameter; " << overlaps.size()
          << " pairs overlap by more than " << tolerance << " m. Move the grains apart.";

@@ -40,8 +40,8 @@ namespace alluvium::contacts
 
       CellGrid(const grains::GrainArrays &g, const grains::Periodicity &periodicity, const double smallest_width)
       {
-        const auto [x_min, x_max] = std::minmax_element(g.x.begin(), g.x.end());
-        const auto [y_min, y_max] = std::minmax_element(g.y.begin(), g.y.end());
+        const auto [x_min, x_max] = std::minmax_element(g.position[0].begin(), g.position[0].end());
+        const auto [y_min, y_max] = std::minmax_element(g.position[1].begin(), g.position[1].end());
         const bool   px = periodicity.length[0] > 0., py = periodicity.length[1] > 0.;
         const double lx = px ? periodicity.length[0] : *x_max - *x_min,
                      ly = py ? periodicity.length[1] : *y_max - *y_min;
@@ -61,7 +61,7 @@ namespace alluvium::contacts
         begin.assign(static_cast<std::size_t>(nx) * ny + 1, 0);
         for (std::size_t k = 0; k < g.n(); ++k)
           {
-            cell[k] = row(g.y[k]) * nx + column(g.x[k]);
+            cell[k] = row(g.position[1][k]) * nx + column(g.position[0][k]);
             ++begin[cell[k] + 1];
           }
         for (std::size_t c = 1; c < begin.size(); ++c)
@@ -300,8 +300,8 @@ namespace alluvium::contacts
     if (periodicity.any())
       for (std::size_t k = 0; k < g.n(); ++k)
         {
-          periodicity.wrap(g.x[k], g.x0[k], 0);
-          periodicity.wrap(g.y[k], g.y0[k], 1);
+          periodicity.wrap(g.position[0][k], g.initial_position[0][k], 0);
+          periodicity.wrap(g.position[1][k], g.initial_position[1][k], 1);
         }
   }
 
@@ -310,7 +310,7 @@ namespace alluvium::contacts
                      const std::uint32_t        i,
                      const std::uint32_t        j)
   {
-    double dx = g.x[j] - g.x[i], dy = g.y[j] - g.y[i];
+    double dx = g.position[0][j] - g.position[0][i], dy = g.position[1][j] - g.position[1][i];
     periodicity.shorten(dx, dy);
     const double distance = std::sqrt(dx * dx + dy * dy), gap = distance - (g.radius[i] + g.radius[j]);
     return distance > 0. ? ContactPoint{dx / distance, dy / distance, gap} : ContactPoint{1., 0., gap};
@@ -334,7 +334,7 @@ namespace alluvium::contacts
       for (std::size_t k = 0; k < bodies.size(); ++k)
         {
           const std::uint32_t m = grid.member[k];
-          bodies[k]             = {g.x[m], g.y[m], g.radius[m], m, g.id[m]};
+          bodies[k]             = {g.position[0][m], g.position[1][m], g.radius[m], m, g.id[m]};
         }
       struct Pair
       {
@@ -406,7 +406,7 @@ namespace alluvium::contacts
     if (n == 0)
       return candidates;
     for (std::size_t k = 0; k < n; ++k)
-      if (!std::isfinite(g.x[k]) || !std::isfinite(g.y[k]))
+      if (!std::isfinite(g.position[0][k]) || !std::isfinite(g.position[1][k]))
         throw Divergence("The position of grain " + std::to_string(g.id[k]) + " is not a finite number.");
 
     const grains::Periodicity &periodicity = geometry.periodicity;
@@ -434,7 +434,7 @@ namespace alluvium::contacts
                 for (std::uint32_t a = grid.begin[c]; a < grid.begin[c + 1]; ++a)
                   {
                     const std::uint32_t p = grid.member[a];
-                    if (distance_to(w, g.x[p], g.y[p]) < g.radius[p] + skin)
+                    if (distance_to(w, g.position[0][p], g.position[1][p]) < g.radius[p] + skin)
                       candidates.walls.push_back({p, static_cast<std::uint32_t>(k)});
                   }
               }

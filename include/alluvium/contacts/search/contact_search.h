@@ -88,7 +88,7 @@ namespace alluvium::contacts
     grains::Periodicity periodicity;
   };
 
-  /** Bring all grains into a periodic box. Their displacement x - x0 since t = 0 stays what it is. */
+  /** Bring all grains into a periodic box. Their displacement since t = 0 stays what it is. */
   void wrap_into_box(grains::GrainArrays &grains, const grains::Periodicity &periodicity);
 
   /** The contact of grains @p i and @p j, or of their nearest images; the normal points from i to j. */
