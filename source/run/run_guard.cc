@@ -1,6 +1,5 @@
 #include <alluvium/run/checkpoint.h>
 #include <alluvium/run/model.h>
-#include <alluvium/run/places.h>
 #include <alluvium/run/run_guard.h>
 #include <alluvium/utilities/divergence.h>
 #include <alluvium/utilities/log.h>
@@ -62,6 +61,7 @@ namespace alluvium::run
   void RunGuard::start()
   {
     meter.begin(model);
+    fastest = fastest_grain(model);
     good.keep(model, output);
     write_provisional_summary();
   }
@@ -99,6 +99,7 @@ namespace alluvium::run
   {
     const auto timer = model.timers.scope("divergence monitor");
     measures         = meter.measure(model);
+    fastest          = fastest_grain(model);
     const Sign sign  = monitor.judge(model, measures);
     if (!sign.what.empty())
       raise(sign, model.n_steps, model.time);
@@ -143,13 +144,12 @@ namespace alluvium::run
   {
     if (has_judged)
       return error;
-    const Place        place = fastest_grain(model);
     std::ostringstream text;
     text << "The run has diverged in step " << model.n_steps + 1 << ", from t = " << model.time
          << " s: " << error.what();
-    if (!place.name.empty())
-      text << " Before it, " << place.name << " was the fastest: " << measures.grain_velocity << " m/s, at ("
-           << place.point[0] << ", " << place.point[1] << ") m.";
+    if (!fastest.name.empty())
+      text << " Before it, " << fastest.name << " was the fastest: " << measures.grain_velocity << " m/s, at ("
+           << fastest.point[0] << ", " << fastest.point[1] << ") m.";
     text << " Try a smaller Time/Time step.";
     return Divergence(text.str());
   }

@@ -3,6 +3,7 @@
 #include <alluvium/run/divergence_monitor.h>
 #include <alluvium/run/good_state.h>
 #include <alluvium/run/output.h>
+#include <alluvium/run/places.h>
 #include <alluvium/run/step_measures.h>
 #include <alluvium/utilities/divergence.h>
 #include <alluvium/utilities/failure.h>
@@ -84,6 +85,7 @@ namespace alluvium::run
     DivergenceMonitor monitor;
     GoodState         good;
     StepMeasures      measures;
+    Place             fastest;              // grain when the last step had ended: a failed one leaves them under way
     double            interval        = 0.; // of checkpoints [s]
     bool              is_due          = false;
     bool              has_judged      = false; // that the step failed: the error has its place
