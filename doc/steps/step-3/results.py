@@ -98,6 +98,10 @@ def results(step):
     if step.short:
         return
 
+    inside = step.run("darcy.prm", name="inside", settings=["Mesh refinement/Criteria: bed faces/Cell size far away=2"])
+    step.number("inside", inside.last("flux_top_m2_per_s") / flux["2 d"][-1], 0.003, "flux with no cell larger than 2 d, over that at h/d 0.5")
+    step.number("inside_cells", inside.summary["scene"]["cells"], 0.1, "cells then")
+
     # what to try
     fast = step.run("darcy.prm", name="fast", settings=["Boundary conditions/Pressure=top: 0; bottom: rho*g*H + 0.8*rho*g*L"])
     step.number("fast", fast.last("flux_top_m2_per_s") / 40 / run.last("flux_top_m2_per_s"), 0.005, "flux over head at 40 times the head, over that of the scene")
