@@ -271,8 +271,10 @@ namespace alluvium
     auto &counts = model.counts;
     counts["contact sweeps"] += model.contact_report.n_sweeps;
     counts["contact steps at rest"] += model.contact_report.at_rest;
+    counts["contact solves' corrections of moments"] += model.contact_report.n_corrections;
     counts["contact sub-steps"] += model.contact_report.n_substeps;
     counts["contact sub-steps halved"] += model.contact_report.n_halvings;
+    counts["contact sub-steps that stalled"] += model.contact_report.n_stalled;
     counts["contact sub-steps not converged"] += model.contact_report.n_unconverged;
     counts["linear iterations"] += model.coupling.report().n_iterations;
     counts["repetitions of fluid and contacts"] += model.contact_iteration.n_repetitions();

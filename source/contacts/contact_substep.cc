@@ -1,6 +1,7 @@
 #include <alluvium/contacts/contact_plausibility.h>
 #include <alluvium/contacts/contact_substep.h>
 #include <alluvium/contacts/solvers/cold_start.h>
+#include <alluvium/contacts/solvers/contact_measure.h>
 #include <alluvium/contacts/solvers/contact_reductions.h>
 #include <alluvium/utilities/divergence.h>
 
@@ -50,7 +51,9 @@ namespace alluvium::contacts
         runaway           = is_runaway(largest, before, extra);
         gain              = bounces && has_gained_energy(problem, work.n_all(), before, extra);
       }
-    if ((!outcome.solution.converged || outcome.too_far || gain) && !runaway && may_halve)
+    const bool solved =
+      outcome.solution.converged || (outcome.solution.stalled && !(may_halve && settings.halve_stalled));
+    if ((!solved || outcome.too_far || gain) && !runaway && may_halve)
       {
         ++report.n_halvings;
         for (int half = 0; half < 2; ++half)
@@ -65,7 +68,9 @@ namespace alluvium::contacts
         slack          = work.slack();
         outcome        = solve(report, false);
       }
-    if (!outcome.solution.converged)
+    if (outcome.solution.stalled)
+      ++report.n_stalled;
+    else if (!outcome.solution.converged)
       ++report.n_unconverged;
 
     report.n_contacts = motion.move(problem, active, bodies, bonds, h, settings.rotation, work);
@@ -76,9 +81,10 @@ namespace alluvium::contacts
     if (!outcome.solution.converged || outcome.too_far || runaway || gain)
       look_for_crushed(report);
     ++report.n_substeps;
-    report.residual     = std::max(report.residual, outcome.solution.residual);
-    report.violation    = std::max(report.violation, outcome.solution.violation);
-    report.max_velocity = outcome.speed;
+    report.residual        = std::max(report.residual, outcome.solution.residual);
+    report.violation       = std::max(report.violation, outcome.solution.violation);
+    report.smooth_velocity = std::fmax(report.smooth_velocity, outcome.smooth); // either may be no number
+    report.max_velocity    = outcome.speed;
   }
 
 
@@ -161,15 +167,17 @@ namespace alluvium::contacts
   {
     // A residual makes a bed creep, at a speed in proportion to it and to the sub-step: wider in short ones, narrower
     // in those that are long for a grain's fall.
-    const double g     = step.scales.g;
-    const double x     = g > 0. ? 0.2 * std::sqrt(step.scales.d_min / g) / margins.h : 1.;
-    const double wider = std::clamp(x, 1., 10.) * std::clamp(2. * x, 0.1, 1.) * (on_the_move ? step.haste : 1.);
-    return {wider * settings.residual_tolerance,
-            wider * settings.violation_tolerance,
-            settings.loose,
-            on_the_move ? settings.patience : 10 * settings.patience,
-            false,
-            settings.max_sweeps};
+    const double     g     = step.scales.g;
+    const double     x     = g > 0. ? 0.2 * std::sqrt(step.scales.d_min / g) / margins.h : 1.;
+    const double     wider = std::clamp(x, 1., 10.) * std::clamp(2. * x, 0.1, 1.) * (on_the_move ? step.haste : 1.);
+    ContactTolerance tolerance;
+    tolerance.residual   = wider * settings.residual_tolerance;
+    tolerance.violation  = wider * settings.violation_tolerance;
+    tolerance.smooth     = wider * settings.smooth_tolerance;
+    tolerance.loose      = settings.loose;
+    tolerance.patience   = on_the_move ? settings.patience : 10 * settings.patience;
+    tolerance.max_sweeps = settings.max_sweeps;
+    return tolerance;
   }
 
 
@@ -179,9 +187,12 @@ namespace alluvium::contacts
    */
   ContactSubstep::Outcome ContactSubstep::solve(ContactReport &report, const bool may_halve)
   {
+    constexpr double      resting   = 0.02; // rms speed over g h
+    constexpr std::size_t least_bed = 1000; // smaller ones need no help
+    const bool            is_resting =
+      step.scales.g > 0. && work.n_all() >= least_bed && margins.speeds.mean < resting * problem.velocity_scale;
     // A bed at rest, or a cold one, is not on the move, however many sweeps it takes.
-    const bool on_the_move =
-      margins.speeds.mean > settings.moving_speed * problem.impulse_scale / step.scales.mean_mass;
+    const bool on_the_move     = margins.speeds.mean > settings.moving_speed * problem.velocity_scale;
     report.hasty               = report.hasty || (on_the_move && step.haste > 1.);
     ContactTolerance tolerance = this->tolerance(on_the_move);
     Outcome          outcome;
@@ -190,19 +201,32 @@ namespace alluvium::contacts
       {
         set_problem(keep);
         Assert(is_consistent(problem), dealii::ExcMessage("The contacts are not what the solvers rely on."));
+        const grains::GrainArrays &grains = work.grains();
+        const DiscPlaces           places{grains.position[0], grains.position[1], grains.radius};
+        if (is_resting)
+          moments.begin(problem, places, work.geometry.periodicity.length);
+        problem.correction = nullptr;
         if (!keep && settings.cold_start && step.scales.g > 0. && active.is_cold(work.n_all(), problem))
           {
             tolerance.at_rest = true; // also in later rounds
             find_weights();
-            const grains::GrainArrays &grains = work.grains();
-            solution                          = solve_cold(problem,
-                                  {grains.position[0], grains.position[1], grains.radius},
-                                  {step.scales.down, weight},
-                                  *step.solver,
-                                  tolerance);
+            solution = solve_cold(problem, places, {step.scales.down, weight}, *step.solver, tolerance);
           }
         else
-          solution = step.solver->solve(problem, tolerance);
+          {
+            if (is_resting && settings.moment_correction && !tolerance.at_rest)
+              problem.correction = &moments;
+            solution = step.solver->solve(problem, tolerance);
+          }
+        if (problem.correction != nullptr)
+          report.n_corrections += moments.n_corrections();
+        if (is_resting)
+          outcome.smooth = problem.correction != nullptr ? solution.smooth
+                                                         : moments.velocity(problem,
+                                                                            ContactMeasure(problem).kinetic_energy(),
+                                                                            solution.sweeps,
+                                                                            tolerance.smooth * problem.velocity_scale) /
+                                                             problem.velocity_scale;
         report.n_sweeps += solution.sweeps;
         report.n_updates += static_cast<unsigned long long>(solution.sweeps) * problem.n_counted();
         outcome.largest_impulse = active.take_impulses(problem, work.neighbours.pairs);

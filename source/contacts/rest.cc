@@ -64,7 +64,7 @@ namespace alluvium::contacts
     touched              = last_touched;
     ContactReport report = last_report;
     report.n_sweeps = report.n_updates = 0;
-    report.n_substeps = report.n_halvings = report.n_loose = 0;
+    report.n_substeps = report.n_halvings = report.n_loose = report.n_stalled = report.n_corrections = 0;
     report.max_velocity = report.wall_work = 0.;
     report.crush                           = {};
     report.at_rest                         = true;
@@ -130,6 +130,7 @@ namespace alluvium::contacts
     writer.put(last_report.n_unconverged);
     writer.put(last_report.residual);
     writer.put(last_report.violation);
+    writer.put(last_report.smooth_velocity);
     writer.put(last_report.max_penetration);
     writer.put(last_report.mean_penetration);
   }
@@ -154,6 +155,7 @@ namespace alluvium::contacts
     last_report.n_unconverged    = reader.get<unsigned int>();
     last_report.residual         = reader.get<double>();
     last_report.violation        = reader.get<double>();
+    last_report.smooth_velocity  = reader.get<double>();
     last_report.max_penetration  = reader.get<double>();
     last_report.mean_penetration = reader.get<double>();
   }

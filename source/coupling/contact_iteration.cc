@@ -100,9 +100,16 @@ namespace alluvium::coupling
     unsigned int             n_stalled = 0;
     if (tries)
       start = remember(grains);
+    contacts::ContactReport tried; // what it has cost
+    const auto              count = [&](contacts::ContactReport &report) {
+      tried.n_sweeps      = report.n_sweeps += tried.n_sweeps;
+      tried.n_updates     = report.n_updates += tried.n_updates;
+      tried.n_corrections = report.n_corrections += tried.n_corrections;
+    };
     for (n = 0;; ++n)
       {
-        Answer       answer    = move(grains, loads, dt, gravity, haste);
+        Answer answer = move(grains, loads, dt, gravity, haste);
+        count(answer.report);
         const double defect    = root_mean_square(answer.unseen);
         n_stalled              = defect > 0.7 * best ? n_stalled + 1 : 0;
         best                   = std::min(best, defect);
@@ -114,7 +121,8 @@ namespace alluvium::coupling
               {
                 go_back_to(start, grains);
                 answer = move(grains, loads, dt, gravity, 1.);
-                agree  = agrees(answer, tolerance); // hasty only if the step may be repeated
+                count(answer.report);
+                agree = agrees(answer, tolerance); // hasty only if the step may be repeated
               }
             coupling.set_unseen_force(answer.unseen);
             return answer.report;

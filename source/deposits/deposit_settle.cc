@@ -75,7 +75,7 @@ namespace alluvium::deposits
       }
 
       /** Take all motion and all knowledge of contact forces away. */
-      void start_cold(const double tolerance)
+      void start_cold(const double tolerance, const double largest_violation)
       {
         for (auto *v : {&grains.velocity[0], &grains.velocity[1], &grains.omega})
           std::fill(v->begin(), v->end(), 0.);
@@ -86,6 +86,9 @@ namespace alluvium::deposits
         settings.friction = settings.wall_friction = settling.friction;
         settings.rest_steps                        = 0; // what is still is judged here
         settings.residual_tolerance                = tolerance;
+        settings.violation_tolerance               = largest_violation;
+        settings.smooth_tolerance                  = 1e-4;
+        settings.patience                          = 100;
         // Beds stay as they are only under steps whose dead zone is no smaller.
         settings.dead_zone *= 0.1;
         solve_step();
@@ -155,10 +158,12 @@ namespace alluvium::deposits
     double   height = 0.;
     for (const Seed &s : seeds)
       height = std::max(height, s.y - settling.box.lower[1]);
+    // of the weight of a grain, and the deeper the bed, the more its contacts carry
+    const double       carried = std::max(1., 0.25 * height / bed.smallest);
     const unsigned int n_steps = 2000 + static_cast<unsigned int>(5. * height / bed.smallest);
     if (settling.loose)
       {
-        bed.start_cold(1e-5);
+        bed.start_cold(1e-5 * carried, 1e-4 * carried);
         do
           bed.go_on();
         while (bed.falls() && bed.state.n_steps < n_steps);
@@ -168,7 +173,7 @@ namespace alluvium::deposits
     // makes a deep bed creep and swing, hence the tolerance.
     for (unsigned int pass = 0; pass < 2; ++pass)
       {
-        bed.start_cold(1e-7);
+        bed.start_cold(1e-7 * carried, 1e-4 * carried);
         const unsigned int last = bed.state.n_steps + n_steps;
         do
           bed.go_on();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace alluvium::observers
 {
@@ -27,6 +28,7 @@ namespace alluvium::observers
             statistics.add_column(name);
         statistics.add_column("mean_penetration_over_d");
         statistics.add_column("contact_residual");
+        statistics.add_column("contact_smooth_velocity_over_g_dt");
       }
 
       void observe(const Snapshot &s) override
@@ -80,7 +82,9 @@ namespace alluvium::observers
             const double d = s.grains.n() > 0 ? grains::mean_diameter(s.grains) : 1.;
             statistics.set("mean_penetration_over_d", s.contacts->mean_penetration / d);
             statistics.set("contact_residual", s.contacts->residual);
-            penetration = std::max(penetration, s.contacts->max_penetration / d);
+            statistics.set("contact_smooth_velocity_over_g_dt", s.contacts->smooth_velocity);
+            penetration     = std::max(penetration, s.contacts->max_penetration / d);
+            smooth_velocity = std::fmax(smooth_velocity, s.contacts->smooth_velocity); // which may be no number
           }
       }
 
@@ -88,6 +92,8 @@ namespace alluvium::observers
       {
         summary.set("audit/largest_third_law_defect", third_law);
         summary.set("audit/largest_penetration_over_d", penetration);
+        if (!std::isnan(smooth_velocity))
+          summary.set("audit/largest_contact_smooth_velocity_over_g_dt", smooth_velocity);
         if (received > 0.)
           {
             // of the exchange, and of the weight: in still water the exchange is next to nothing
@@ -106,7 +112,10 @@ namespace alluvium::observers
 
       void save(nlohmann::ordered_json &state) const override
       {
-        state = {third_law, penetration, not_received[0], not_received[1], not_received_gross, received, weight};
+        state = {
+          third_law, penetration, not_received[0], not_received[1], not_received_gross, received, weight, nullptr};
+        if (!std::isnan(smooth_velocity))
+          state.back() = smooth_velocity;
       }
 
       void load(const nlohmann::ordered_json &state) override
@@ -118,10 +127,12 @@ namespace alluvium::observers
         not_received_gross = state.at(4).get<double>();
         received           = state.at(5).get<double>();
         weight             = state.size() > 6 ? state.at(6).get<double>() : 0.;
+        if (state.size() > 7 && !state.at(7).is_null())
+          smooth_velocity = state.at(7).get<double>();
       }
 
     private:
-      double third_law = 0., penetration = 0.;
+      double third_law = 0., penetration = 0., smooth_velocity = std::numeric_limits<double>::quiet_NaN();
       // momentum that grains got and the fluid did not, and sum of |force| dt over the grains [N s/m]
       std::array<double, 2> not_received       = {{0., 0.}};
       double                not_received_gross = 0., received = 0.;
@@ -133,5 +144,6 @@ namespace alluvium::observers
     Audit,
     "audit",
     "What should vanish: defect of the third law, clipped solid volume, prediction defect |v - v*|, drag "
-    "momentum that the grains got and the fluid did not, residuals, penetration.")
+    "momentum that the grains got and the fluid did not, residuals, penetration, the smooth velocity left in a bed at "
+    "rest.")
 } // namespace alluvium::observers

@@ -22,6 +22,7 @@ namespace
 
     explicit Column(const unsigned int n)
     {
+      stepper.settings().residual_tolerance = 1e-6;
       stepper.set_walls({{{{-r, 0.}}, {{r, 0.}}, {}, "floor"},
                          {{{-r, 0.}}, {{-r, 1.}}, {}, "left"},
                          {{{r, 0.}}, {{r, 1.}}, {}, "right"}});

@@ -37,6 +37,9 @@ subsection Grains
     set Cache folder      =
   end
 end
+subsection Contacts
+  set Residual tolerance = 1e-6
+end
 subsection Output
   set Output folder        = $direction
   set Interval of pictures = 0

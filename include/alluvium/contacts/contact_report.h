@@ -3,6 +3,7 @@
 #include <alluvium/grains/grain_arrays.h>
 
 #include <array>
+#include <limits>
 #include <map>
 #include <string>
 
@@ -29,11 +30,17 @@ namespace alluvium::contacts
     unsigned int n_substeps = 0;
     unsigned int n_halvings = 0;      // sub-steps taken as two halves: no convergence, or grains moved too far
     unsigned int n_loose    = 0;      // solves that ended at the loose tolerance
+    unsigned int n_stalled  = 0;      // sub-steps accepted above it, because more sweeps change nothing
     unsigned int n_unconverged   = 0; // sub-steps accepted above the tolerance, because halving did not help
+    unsigned int n_corrections   = 0; // of moments; see MomentCorrection
     unsigned long long n_sweeps  = 0;
     unsigned long long n_updates = 0; // contacts relaxed, over all sweeps
 
-    double residual = 0., violation = 0.;               // the largest of all sub-steps; see ContactTolerance
+    double residual = 0., violation = 0.; // the largest of all sub-steps; see ContactTolerance
+    /** The smooth velocity left at rest, over g dt, the largest of all sub-steps, or what it is below where all that
+     * moves is within the tolerance; see MomentCorrection. Not a number where grains move, for less than 1,000 grains
+     * and without gravity. */
+    double smooth_velocity = std::numeric_limits<double>::quiet_NaN();
     double max_penetration = 0., mean_penetration = 0.; // over the overlapping contacts at the end [m]
     double max_velocity = 0.;                           // of any grain at the end [m/s]
     double wall_work    = 0.;                           // of walls that move on the grains, in the step [J/m]

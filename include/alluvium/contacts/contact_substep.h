@@ -11,7 +11,9 @@
 #include <alluvium/contacts/laws/contact_settings.h>
 #include <alluvium/contacts/ranks/contact_work.h>
 #include <alluvium/contacts/solvers/contact_solver.h>
+#include <alluvium/contacts/solvers/moment_correction.h>
 
+#include <limits>
 #include <vector>
 
 namespace alluvium::contacts
@@ -52,9 +54,10 @@ namespace alluvium::contacts
     struct Outcome
     {
       ContactSolution solution;
-      double          largest_impulse = 0.;    // normal, on this rank [N s/m]
-      double          speed           = 0.;    // of the fastest grain [m/s]
-      bool            too_far         = false; // it moves farther than it may
+      double          largest_impulse = 0.;                                       // normal, on this rank [N s/m]
+      double          speed           = 0.;                                       // of the fastest grain [m/s]
+      double          smooth          = std::numeric_limits<double>::quiet_NaN(); // see ContactReport
+      bool            too_far         = false;                                    // it moves farther than it may
     };
 
     const ContactSettings &settings;
@@ -68,7 +71,8 @@ namespace alluvium::contacts
     ContactBonds        bonds;
     ContactMargins      margins;
     double              slack = 0.; // how far two grains may approach before a pair is missed [m]
-    std::vector<double> weight;     // what the loads give each grain along gravity [N s/m]
+    MomentCorrection    moments;
+    std::vector<double> weight; // what the loads give each grain along gravity [N s/m]
 
     ContactMotion motion;
 

@@ -29,7 +29,7 @@ namespace alluvium::deposits
   };
 
   /** To be raised whenever bring_to_rest() or the contact solver would make another bed: cached beds are made anew. */
-  constexpr unsigned int settling_version = 4;
+  constexpr unsigned int settling_version = 5;
 
   /**
    * Let the grains creep into place under gravity, on a floor and between walls of the box, in a fluid so thick that

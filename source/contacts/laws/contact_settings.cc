@@ -39,14 +39,27 @@ namespace alluvium::contacts
     prm.add_parameter(
       "Residual tolerance",
       residual_tolerance,
-      "How far a contact impulse may be from its law, root mean square over all contacts, over the root mean "
-      "square impulse or, if larger, that of the weight of one grain in a sub-step [-]. With much more than 1e-5 the "
-      "floor of a bed no longer carries all of its weight; with much more than 1e-6 a loaded bed creeps. In sub-steps "
-      "shorter than 0.2 sqrt(d/g) both tolerances are wider by the ratio, at most ten times: the speed at which the "
-      "bed "
-      "creeps is then the same.",
+      "How far a contact impulse may be from its law, root mean square over all contacts, over the weight of one grain "
+      "times the sub-step dt [-]: grains that touch move on one another with about this times g dt where they should "
+      "not, at any depth. Without gravity the largest speed of a grain or a wall stands for g dt. With much more than "
+      "1e-4 a loaded bed creeps and sinks, and costs more, not less. In sub-steps shorter than 0.2 sqrt(d/g) all "
+      "tolerances are wider by the ratio, at most ten times: the speed at which the bed creeps is then the same.",
       Double(0.));
     prm.add_parameter("Largest violation", violation_tolerance, "The same for the worst contact [-].", Double(0.));
+    prm.add_parameter(
+      "Moment correction",
+      moment_correction,
+      "Whether in beds of 1,000 grains and more that are at rest a few sums over large parts of the bed "
+      "correct what sweeps hardly can: depth then costs nothing. Grains count as at rest if their root "
+      "mean square speed is below 0.02 g dt, and only a smooth error that is most of the motion is "
+      "corrected.");
+    prm.add_parameter(
+      "Smooth velocity tolerance",
+      smooth_tolerance,
+      "With the moment correction, the smooth part of the velocities that may be left in a bed at rest, "
+      "root mean square, over g dt [-]. The residual does not see it: floor and sides of a bed that "
+      "moves with 1e-3 g dt carry its weight within about 1e-3.",
+      Double(0.));
     prm.add_parameter("Patience",
                       patience,
                       "After this many sweeps (ten times as many where the grains are not on the move) the tolerances "
@@ -60,10 +73,14 @@ namespace alluvium::contacts
                       Double(0.));
     prm.add_parameter(
       "Loose factor", loose, "The most by which the tolerances grow [-]. 1: they never do.", Double(1.));
-    prm.add_parameter("Largest number of sweeps",
-                      max_sweeps,
-                      "A sub-step that is not solved after this many sweeps is taken as two halves.",
-                      Integer(1));
+    prm.add_parameter(
+      "Largest number of sweeps",
+      max_sweeps,
+      "A sub-step that is not solved after this many sweeps is taken as two halves, unless it has stalled: where over "
+      "the second half of the sweeps velocities have changed by less than 1e-2 of g dt, or of themselves, root mean "
+      "square, halves would do no better.",
+      Integer(1));
+    prm.add_parameter("Halve stalled sub-steps", halve_stalled, "Whether to take them as two halves all the same.");
     prm.add_parameter(
       "Largest number of halvings",
       max_halvings,

@@ -41,11 +41,7 @@ namespace alluvium::contacts
       find_neighbours(problem);
       const std::size_t n      = problem.contacts.size();
       std::size_t       visits = 0;
-      double            square = 0.;
-      for (const Contact &c : problem.contacts)
-        square += c.rn * c.rn + c.rt * c.rt;
-      const double scale = std::max(std::sqrt(square / std::max<std::size_t>(1, n)), problem.impulse_scale);
-      const double limit = std::pow(threshold * tolerance.residual * scale, 2);
+      const double      limit  = std::pow(threshold * tolerance.residual * problem.impulse_scale, 2);
 
       // Contacts wait in the order of their colours, as sweeps would visit them.
       waiting.assign(n, 1);
@@ -79,10 +75,10 @@ namespace alluvium::contacts
           if (n_waiting > largest_queue * n)
             break;
         }
-      problem.discs                = free;
-      const ContactSolution others = part("accelerated Gauss-Seidel").solve(problem, tolerance);
-      solution = {others.converged, solution.sweeps + others.sweeps, others.residual, others.violation};
-      return solution;
+      problem.discs          = free;
+      ContactSolution others = part("accelerated Gauss-Seidel").solve(problem, tolerance);
+      others.sweeps += solution.sweeps;
+      return others;
     }
 
   private:

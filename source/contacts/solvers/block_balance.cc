@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace alluvium::contacts
 {
@@ -18,29 +17,11 @@ namespace alluvium::contacts
   BlockBalance::BlockBalance(const ContactProblem &problem, const DiscPlaces &places)
     : places(places)
   {
-    constexpr double none    = std::numeric_limits<double>::lowest();
-    double           ends[5] = {none, none, none, none, 0.};
-    for (std::size_t k = 0; k < problem.n_owned_discs; ++k)
-      {
-        ends[0] = std::max(ends[0], -places.x[k]);
-        ends[1] = std::max(ends[1], places.x[k]);
-        ends[2] = std::max(ends[2], -places.y[k]);
-        ends[3] = std::max(ends[3], places.y[k]);
-        ends[4] = std::max(ends[4], places.radius[k]);
-      }
-    if (problem.communicator != nullptr)
-      problem.communicator->max(ends, 5);
-    ReproducibleSum radii(most_terms * ends[4]);
-    for (std::size_t k = 0; k < problem.n_owned_discs; ++k)
-      radii.add(places.radius[k]);
-    double sums[2] = {radii.value(), static_cast<double>(problem.n_owned_discs)};
-    if (problem.communicator != nullptr)
-      problem.communicator->sum(sums, 2);
-
-    const double diameter = 2. * sums[0] / std::max(1., sums[1]);
-    const double lx = ends[0] + ends[1] + 2. * diameter, ly = ends[2] + ends[3] + 2. * diameter;
-    left   = -ends[0] - diameter;
-    bottom = -ends[2] - diameter;
+    const DiscExtent bed      = measure_extent(problem, places);
+    const double     diameter = bed.diameter;
+    const double     lx = bed.upper[0] - bed.lower[0] + 2. * diameter, ly = bed.upper[1] - bed.lower[1] + 2. * diameter;
+    left   = bed.lower[0] - diameter;
+    bottom = bed.lower[1] - diameter;
     extent = std::sqrt(lx * ly) / diameter;
     size   = std::max(8. * diameter, 0.1 * std::sqrt(lx * ly));
     // One disc that lies far away must not cost the memory of all the blocks in between.

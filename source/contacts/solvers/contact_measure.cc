@@ -1,5 +1,6 @@
 #include <alluvium/contacts/solvers/contact_measure.h>
 #include <alluvium/contacts/solvers/contact_pack.h>
+#include <alluvium/contacts/solvers/contact_reductions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -130,8 +131,33 @@ namespace alluvium::contacts
   {
     if (!std::isfinite(sums.change) || !std::isfinite(sums.size))
       return infinity;
-    const double count = std::max(1., n);
-    return std::sqrt(sums.change / count) / std::max(std::sqrt(sums.size / count), problem.impulse_scale);
+    return std::sqrt(sums.change / std::max(1., n)) / problem.impulse_scale;
+  }
+
+  void ContactMeasure::remember_velocities()
+  {
+    if (!remembered.empty())
+      return;
+    remembered.reserve(problem.n_owned_discs);
+    for (std::size_t k = 0; k < problem.n_owned_discs; ++k)
+      remembered.push_back({{problem.discs[k].x, problem.discs[k].y, problem.discs[k].s}});
+  }
+
+  std::optional<std::array<double, 2>> ContactMeasure::velocity_change() const
+  {
+    if (!any_over_ranks(problem.communicator, !remembered.empty()))
+      return {};
+    const std::size_t n_owned = remembered.size(), n_all = count_over_ranks(problem.communicator, n_owned);
+    auto              sums =
+      sum_over_ranks<2>(problem.communicator, n_owned, n_all, [&](const std::size_t k) -> std::array<double, 2> {
+        const Disc  &d = problem.discs[k];
+        const auto  &v = remembered[k];
+        const double x = d.x - v[0], y = d.y - v[1], s = d.s - v[2];
+        return {{x * x + y * y + s * s, d.x * d.x + d.y * d.y + d.s * d.s}};
+      });
+    for (double &sum : sums)
+      sum = std::sqrt(sum / n_all);
+    return sums;
   }
 
   double ContactMeasure::kinetic_energy()

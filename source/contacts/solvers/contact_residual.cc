@@ -1,6 +1,7 @@
 #include <alluvium/contacts/solvers/contact_measure.h>
 #include <alluvium/contacts/solvers/contact_pack.h>
 #include <alluvium/contacts/solvers/contact_solver.h>
+#include <alluvium/contacts/solvers/moment_correction.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +10,11 @@ namespace alluvium::contacts
 {
   namespace
   {
-    /** What the natural map changes in a pass over all contacts: sums of terms rounded with a shift, and maxima. */
+    /** What the natural map changes in a pass over all contacts: squares, of which terms are rounded with a shift. */
     struct ResidualTerms
     {
-      double shift_change = 0., shift_size = 0.; // see ReproducibleSum
-      double change = 0., size = 0., largest_change = 0., largest_size = 0.;
+      double shift  = 0.; // see ReproducibleSum
+      double change = 0., largest = 0.;
     };
 
     /** One contact, or several, of which those with @p weight 1 count and those with 0 do not. */
@@ -22,20 +23,15 @@ namespace alluvium::contacts
                                       const DiscValues<T>    &i,
                                       const DiscValues<T>    &j,
                                       const T                &weight,
-                                      const ResidualTerms    &shifts,
+                                      const double            shift,
                                       T                      &change,
-                                      T                      &size,
-                                      T                      &largest_change,
-                                      T                      &largest_size)
+                                      T                      &largest)
     {
       T rn, rt;
       FrictionCone::solve(c, i, j, rn, rt);
-      const T changed = weight * ((rn - c.rn) * (rn - c.rn) + (rt - c.rt) * (rt - c.rt)),
-              square  = weight * (c.rn * c.rn + c.rt * c.rt);
-      change += (changed + shifts.shift_change) - shifts.shift_change;
-      size += (square + shifts.shift_size) - shifts.shift_size;
-      raise_to(largest_change, changed);
-      raise_to(largest_size, square);
+      const T changed = weight * ((rn - c.rn) * (rn - c.rn) + (rt - c.rt) * (rt - c.rt));
+      change += (changed + shift) - shift;
+      raise_to(largest, changed);
     }
 
     template <bool packed>
@@ -47,7 +43,7 @@ namespace alluvium::contacts
       std::size_t          k        = 0;
       if constexpr (packed)
         {
-          Pack                change{}, size{}, largest_change{}, largest_size{};
+          Pack                change{}, largest{};
           ContactValues<Pack> c{};
           DiscValues<Pack>    i{}, j{};
           for (; k + pack_size <= n; k += pack_size)
@@ -60,14 +56,12 @@ namespace alluvium::contacts
               if (problem.communicator != nullptr)
                 for (unsigned int m = 0; m < pack_size; ++m)
                   weight[m] = problem.counts(p[m]) ? 1. : 0.;
-              add_residual(c, i, j, weight, terms, change, size, largest_change, largest_size);
+              add_residual(c, i, j, weight, terms.shift, change, largest);
             }
           for (unsigned int m = 0; m < pack_size; ++m)
             {
               terms.change += change[m];
-              terms.size += size[m];
-              raise_to(terms.largest_change, double(largest_change[m]));
-              raise_to(terms.largest_size, double(largest_size[m]));
+              raise_to(terms.largest, double(largest[m]));
             }
         }
       for (; k < n; ++k)
@@ -75,11 +69,9 @@ namespace alluvium::contacts
                      values(discs[contacts[k].i]),
                      values(discs[contacts[k].j]),
                      problem.counts(contacts[k]) ? 1. : 0.,
-                     terms,
+                     terms.shift,
                      terms.change,
-                     terms.size,
-                     terms.largest_change,
-                     terms.largest_size);
+                     terms.largest);
     }
 
     using Residuals = void(const ContactProblem &, ResidualTerms &);
@@ -123,62 +115,85 @@ namespace alluvium::contacts
   void measure_residual(const ContactMeasure &measure, ContactSolution &solution)
   {
     const ContactProblem &problem = measure.problem;
-    ContactMeasure::Sums  sums    = measure.begin();
-    double                largest[2];
-    // A maximum needs no bound; if the sums outgrow theirs, once more with what the maxima allow.
+    ReproducibleSum       change  = measure.begin().change;
+    double                largest = 0.;
+    // A maximum needs no bound; if the sum outgrows its own, once more with what the maximum allows.
     for (int attempt = 0; attempt < 2; ++attempt)
       {
         ResidualTerms terms;
-        terms.shift_change = sums.change.unit_shift();
-        terms.shift_size   = sums.size.unit_shift();
+        terms.shift = change.unit_shift();
         best_residuals(problem, terms);
-        sums.change.add_rounded(terms.change);
-        sums.size.add_rounded(terms.size);
-        largest[0]     = terms.largest_change;
-        largest[1]     = terms.largest_size;
-        const auto add = [&](const double change, const double size) {
-          sums.change.add(change);
-          sums.size.add(size);
-          largest[0] = std::max(largest[0], change);
-          largest[1] = std::max(largest[1], size);
-        };
+        change.add_rounded(terms.change);
+        largest = terms.largest;
         for (std::size_t k = 0; k < problem.rolling.size(); ++k)
           if (const Contact &c = problem.contacts[k]; problem.counts(c))
             {
               const RollingFriction &r = problem.rolling[k];
-              const double change = solve_rolling(r, c, problem.discs[c.i], problem.discs[c.j], r.impulse) - r.impulse;
-              add(change * change, r.impulse * r.impulse);
+              const double moved = solve_rolling(r, c, problem.discs[c.i], problem.discs[c.j], r.impulse) - r.impulse;
+              change.add(moved * moved);
+              largest = std::max(largest, moved * moved);
             }
         if (problem.communicator != nullptr)
           {
-            double all[2] = {sums.change.value(), sums.size.value()};
-            problem.communicator->sum(all, 2);
-            problem.communicator->max(largest, 2);
-            sums.change.set(all[0]);
-            sums.size.set(all[1]);
+            double all = change.value();
+            problem.communicator->sum(&all, 1);
+            problem.communicator->max(&largest, 1);
+            change.set(all);
           }
-        if (sums.change.holds() && sums.size.holds())
+        if (change.holds())
           break;
-        const double n = measure.n_contacts();
-        sums           = {ReproducibleSum(n * largest[0]), ReproducibleSum(n * largest[1]), ReproducibleSum(0.)};
+        change = ReproducibleSum(measure.n_contacts() * largest);
       }
     const double n     = std::max(1., measure.n_contacts());
-    const double scale = std::max(std::sqrt(sums.size.value() / n), problem.impulse_scale);
-    solution.residual  = std::sqrt(sums.change.value() / n) / scale;
-    solution.violation = std::sqrt(largest[0]) / scale;
+    solution.residual  = std::sqrt(change.value() / n) / problem.impulse_scale;
+    solution.violation = std::sqrt(largest) / problem.impulse_scale;
     solution.missing   = problem.heaviest > 0. ? missing_impulse(problem) : 0.;
   }
 
-  bool is_solved(const ContactMeasure   &measure,
+  void give_up(ContactMeasure &measure, const ContactTolerance &tolerance, ContactSolution &solution)
+  {
+    constexpr double      little  = 1e-2;
+    const ContactProblem &problem = measure.problem;
+    measure_residual(measure, solution);
+    if (problem.correction != nullptr)
+      solution.smooth = problem.correction->estimate(problem, solution.sweeps).velocity / problem.velocity_scale;
+    const auto change = measure.velocity_change();
+    solution.stalled  = change && (*change)[0] <= little * std::max(problem.velocity_scale, (*change)[1]) &&
+                       solution.missing <= tolerance.missing && solution.smooth <= tolerance.loose * tolerance.smooth;
+  }
+
+  bool is_solved(ContactMeasure         &measure,
                  const SweepSums        &sums,
                  const ContactTolerance &tolerance,
                  ContactSolution        &solution,
                  const double            stride)
   {
-    if (!(measure.relative_change(sums) <= stride * tolerance.allowance(solution.sweeps) * tolerance.residual))
+    // a cold bed may creep towards its solution for as long as it is deep
+    if (!tolerance.at_rest && solution.sweeps >= tolerance.max_sweeps / 2)
+      measure.remember_velocities();
+    const double allowance = tolerance.allowance(solution.sweeps);
+    if (!(measure.relative_change(sums) <= stride * allowance * tolerance.residual))
       return false;
+    const ContactProblem   &problem = measure.problem;
+    MomentCorrection *const moments = problem.correction;
+    if (moments != nullptr && !moments->may_look(solution.sweeps))
+      return false;
+    solution.smooth = 0.;
     measure_residual(measure, solution);
-    solution.converged = solution.meets(tolerance);
-    return solution.converged;
+    if (!solution.meets(tolerance))
+      return false;
+    if (moments != nullptr)
+      {
+        const double limit = allowance * tolerance.smooth * problem.velocity_scale;
+        const double left  = moments->velocity(problem, measure.kinetic_energy(), solution.sweeps, limit);
+        solution.smooth    = left / problem.velocity_scale;
+        if (left > limit)
+          {
+            moments->disappoint(solution.sweeps);
+            return false;
+          }
+      }
+    solution.converged = true;
+    return true;
   }
 } // namespace alluvium::contacts

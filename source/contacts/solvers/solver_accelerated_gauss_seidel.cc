@@ -1,5 +1,6 @@
 #include <alluvium/contacts/solvers/contact_solver.h>
 #include <alluvium/contacts/solvers/contact_sweep.h>
+#include <alluvium/contacts/solvers/moment_correction.h>
 #include <alluvium/utilities/plugin.h>
 
 #include <algorithm>
@@ -47,10 +48,7 @@ namespace alluvium::contacts
       ContactSolution solution;
       apply_impulses(problem);
       ContactMeasure measure(problem);
-      last.resize(problem.contacts.size());
-      for (std::size_t k = 0; k < last.size(); ++k)
-        last[k] = {problem.contacts[k].rn, problem.contacts[k].rt};
-      remember(problem);
+      restart(problem);
 
       double t = 1., beta = 0., cap = largest_momentum;
       // Where things move, momentum that overshoots finds nobody to stop it; a bed at rest needs patience.
@@ -83,7 +81,13 @@ namespace alluvium::contacts
               stall_change = change;
               stall_start  = solution.sweeps;
             }
-          if (iteration % 2 == 1)
+          if (correct_if_due(problem, solution.sweeps))
+            {
+              restart(problem);
+              t           = 1.;
+              last_change = objective = std::numeric_limits<double>::max();
+            }
+          else if (iteration % 2 == 1)
             {
               const double now = measure.kinetic_energy() + sums.work;
               if (now > objective && change > growth * last_change)
@@ -95,7 +99,7 @@ namespace alluvium::contacts
           beta                = std::min(cap, (t - 1.) / t_next);
           t                   = t_next;
         }
-      measure_residual(measure, solution);
+      give_up(measure, tolerance, solution);
       return solution;
     }
 
@@ -105,6 +109,17 @@ namespace alluvium::contacts
     unsigned int stall_sweeps     = 100;
 
     mutable std::vector<LastImpulse> last; // kept to save the allocation
+
+    /** Let the momentum start from the impulses and velocities as they are. */
+    void restart(ContactProblem &problem) const
+    {
+      last.resize(problem.contacts.size());
+      for (std::size_t k = 0; k < last.size(); ++k)
+        last[k] = {problem.contacts[k].rn, problem.contacts[k].rt};
+      remember(problem);
+      for (RollingFriction &r : problem.rolling)
+        r.last = r.impulse;
+    }
   };
 
   ALLUVIUM_REGISTER(ContactSolver,

@@ -2,6 +2,7 @@
 #include <alluvium/contacts/solvers/contact_relax.h>
 #include <alluvium/contacts/solvers/contact_solver.h>
 #include <alluvium/contacts/solvers/contact_sweep.h>
+#include <alluvium/contacts/solvers/moment_correction.h>
 #include <alluvium/utilities/plugin.h>
 
 #include <algorithm>
@@ -43,8 +44,9 @@ namespace alluvium::contacts
           ++solution.sweeps;
           if (is_solved(measure, sums, tolerance, solution))
             return solution;
+          correct_if_due(problem, solution.sweeps);
         }
-      measure_residual(measure, solution);
+      give_up(measure, tolerance, solution);
       return solution;
     }
 

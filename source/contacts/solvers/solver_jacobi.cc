@@ -2,6 +2,7 @@
 #include <alluvium/contacts/solvers/contact_relax.h>
 #include <alluvium/contacts/solvers/contact_solver.h>
 #include <alluvium/contacts/solvers/contact_sweep.h>
+#include <alluvium/contacts/solvers/moment_correction.h>
 #include <alluvium/utilities/plugin.h>
 
 #include <algorithm>
@@ -45,7 +46,15 @@ namespace alluvium::contacts
           const double change = measure.relative_change(sums);
           if (is_solved(measure, sums, tolerance, solution, 1. / share))
             return solution;
-          if (iteration % 2 == 1)
+          if (correct_if_due(problem, solution.sweeps))
+            {
+              remember(problem);
+              for (std::size_t k = 0; k < last.size(); ++k)
+                last[k] = {problem.contacts[k].rn, problem.contacts[k].rt};
+              t         = 1.;
+              objective = std::numeric_limits<double>::max();
+            }
+          else if (iteration % 2 == 1)
             {
               const double now = measure.kinetic_energy() + sums.work;
               if (now > objective && change > last_change)
@@ -57,7 +66,7 @@ namespace alluvium::contacts
           beta                = (t - 1.) / t_next;
           t                   = t_next;
         }
-      measure_residual(measure, solution);
+      give_up(measure, tolerance, solution);
       return solution;
     }
 

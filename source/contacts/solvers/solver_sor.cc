@@ -1,6 +1,7 @@
 #include <alluvium/contacts/solvers/contact_measure.h>
 #include <alluvium/contacts/solvers/contact_relax.h>
 #include <alluvium/contacts/solvers/contact_solver.h>
+#include <alluvium/contacts/solvers/moment_correction.h>
 #include <alluvium/utilities/plugin.h>
 
 #include <algorithm>
@@ -51,8 +52,9 @@ namespace alluvium::contacts
           ++solution.sweeps;
           if (is_solved(measure, measure.end(sums), tolerance, solution, relaxation))
             return solution;
+          correct_if_due(problem, solution.sweeps);
         }
-      measure_residual(measure, solution);
+      give_up(measure, tolerance, solution);
       return solution;
     }
 

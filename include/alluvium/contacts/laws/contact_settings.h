@@ -20,10 +20,13 @@ namespace alluvium::contacts
     double       threshold_velocity  = 0.01; // [m/s] slower impacts do not bounce
     bool         cold_start          = true;
     bool         rotation            = true;
-    double       residual_tolerance  = 1e-6;
-    double       violation_tolerance = 1e-4;
+    double       residual_tolerance  = 4e-5; // of mean weight times h, as the next
+    double       violation_tolerance = 1e-2;
+    double       smooth_tolerance    = 1e-3; // of g h
+    bool         moment_correction   = true;
+    bool         halve_stalled       = false;
     double       loose               = 100.; // both grow up to this factor ...
-    unsigned int patience            = 100;  // ... after so many sweeps, ten times as many unless grains move ...
+    unsigned int patience            = 30;   // ... after so many sweeps, ten times as many unless grains move ...
     double       moving_speed        = 0.1;  // ... faster than this, root mean square, times g dt
     unsigned int max_sweeps          = 3000;
     unsigned int max_halvings        = 4;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <alluvium/contacts/solvers/contact_problem.h>
+#include <alluvium/contacts/solvers/disc_places.h>
 
 #include <array>
 #include <cstddef>
@@ -8,13 +8,6 @@
 
 namespace alluvium::contacts
 {
-  /** Where the discs of a ContactProblem are, owned and ghosts. */
-  struct DiscPlaces
-  {
-    const std::vector<double> &x, &y;  // centres [m]
-    const std::vector<double> &radius; // [m]
-  };
-
   /**
    * The coarse problem of a bed at rest. Sweeps balance a disc against its neighbours at once, but a large part of the
    * bed against the rest only after many sweeps. Here the momentum of overlapping blocks of discs (bilinear hats on a

@@ -3,6 +3,10 @@
 #include <alluvium/contacts/solvers/contact_problem.h>
 #include <alluvium/utilities/reproducible_sum.h>
 
+#include <array>
+#include <optional>
+#include <vector>
+
 namespace alluvium::contacts
 {
   /** What a sweep leaves behind besides new impulses, on all ranks. */
@@ -43,6 +47,13 @@ namespace alluvium::contacts
     /** Kinetic energy of all discs that can move [J/m]. Collective. */
     double kinetic_energy();
 
+    /** Keep the velocities as they are, once, to see how much they change from here on. */
+    void remember_velocities();
+
+    /** Root mean square of the velocities' change since then, and of the velocities [m/s]; none if not kept.
+     * Collective. */
+    std::optional<std::array<double, 2>> velocity_change() const;
+
     /** Number of contacts on all ranks. */
     double n_contacts() const { return n; }
 
@@ -52,6 +63,8 @@ namespace alluvium::contacts
     double n            = 0.;
     double bias         = 0.; // sum of squared biases
     double change_bound = 0., size_bound = 0., work_bound = 0., energy_bound = 0.;
+
+    std::vector<std::array<double, 3>> remembered; // velocities of owned discs
 
     void bound_work();
   };

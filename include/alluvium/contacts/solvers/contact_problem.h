@@ -58,6 +58,8 @@ namespace alluvium::contacts
     double coefficient; // [-]
   };
 
+  class MomentCorrection;
+
   /**
    * All contacts of one sub-step. Walls are bodies that nothing moves: their velocity sits in the biases, and a few
    * dummies behind the discs stand for them.
@@ -76,10 +78,11 @@ namespace alluvium::contacts
     std::vector<std::uint32_t> colour_begin{}; // contacts of colour c are [colour_begin[c], colour_begin[c + 1]) and
                                                // share no disc
     std::vector<RollingFriction> rolling{};    // of every contact, or none
-    double                       impulse_scale = 1.; // smallest impulse that matters [N s/m]: mean mass * g * dt, say
+    double impulse_scale = 1.; // what impulses are large or small against [N s/m]: mean mass * g * dt, say
     /** Mass of the heaviest disc that moves [kg/m] where it is thousands of times that of the lightest, else 0; and the
      * velocity that gravity gives in the sub-step [m/s]. */
-    double               heaviest = 0., velocity_scale = 0.;
+    double            heaviest = 0., velocity_scale = 0.;
+    MomentCorrection *correction = nullptr; // of a bed at rest, begun; none where discs move, or where it is not wanted
     ContactCommunicator *communicator = nullptr; // none on one rank
 
     std::size_t n_colours() const { return colour_begin.empty() ? 0 : colour_begin.size() - 1; }
