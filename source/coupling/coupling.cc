@@ -62,8 +62,9 @@ namespace alluvium::coupling
   {
     map.reinit();
     still = resumes = false;
-    eps             = space->make_nodal_field();
-    latest_sweep    = space->make_field();
+    space->reinit_nodal_field(eps);
+    space->reinit_field(latest_sweep);
+    latest_sweep.update_ghost_values(); // it may be read before there is one
   }
 
 

@@ -208,7 +208,7 @@ namespace alluvium::fluid
     const types::global_dof_index        first_pressure = partitioners[0]->size();
     std::vector<types::global_dof_index> cell_dofs(system_fe->n_dofs_per_cell()), cell_nodes(n_nodes);
     cell_data.clear();
-    volumes = make_nodal_field();
+    reinit_nodal_field(volumes);
     for (const auto &cell : ordered_cells(dofs))
       if (cell->is_locally_owned())
         {
@@ -272,10 +272,8 @@ namespace alluvium::fluid
   template <int dim>
   BlockVector FluidSpace<dim>::make_field() const
   {
-    BlockVector field(2);
-    for (unsigned int b = 0; b < 2; ++b)
-      field.block(b).reinit(partitioners[b]);
-    field.collect_sizes();
+    BlockVector field;
+    reinit_field(field);
     return field;
   }
 
@@ -284,6 +282,23 @@ namespace alluvium::fluid
   Vector FluidSpace<dim>::make_nodal_field() const
   {
     return Vector(nodal_partitioner);
+  }
+
+
+  template <int dim>
+  void FluidSpace<dim>::reinit_field(BlockVector &field) const
+  {
+    field.reinit(2);
+    for (unsigned int b = 0; b < 2; ++b)
+      field.block(b).reinit(partitioners[b]);
+    field.collect_sizes();
+  }
+
+
+  template <int dim>
+  void FluidSpace<dim>::reinit_nodal_field(Vector &field) const
+  {
+    field.reinit(nodal_partitioner);
   }
 
 

@@ -65,7 +65,7 @@ namespace alluvium::fluid
     boundary_fluxes.clear();
     current.given_fluxes = nullptr;
     auto &volumes        = linear_solver.scales.volumes;
-    volumes              = space->make_field();
+    space->reinit_field(volumes);
     for (const CellData<dim> &cell : space->cells())
       for (unsigned int v = 0; v < space->n_nodes_per_cell(); ++v)
         {
@@ -75,12 +75,8 @@ namespace alluvium::fluid
             volumes.block(0).local_element(cell.velocity[v][d]) += share;
         }
     volumes.compress(VectorOperation::add);
-    iterate   = space->make_field();
-    previous  = space->make_field();
-    residual  = space->make_field();
-    increment = space->make_field();
-    product   = space->make_field();
-    known     = space->make_field();
+    for (BlockVector *field : {&iterate, &previous, &residual, &increment, &product, &known})
+      space->reinit_field(*field);
     iterate.update_ghost_values();
     previous.update_ghost_values();
   }

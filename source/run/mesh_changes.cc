@@ -84,7 +84,8 @@ namespace alluvium::run
       },
       [&] {
         reinit(m);
-        field = before = m.space.make_field();
+        m.space.reinit_field(field);
+        m.space.reinit_field(before);
         m.transfer->interpolate({&field, &before}, m.space.hanging_constraints(), {}, m.space.nodal_constraints());
         m.solver.set_solution(field);
         m.solver.old() = before;

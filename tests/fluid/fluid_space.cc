@@ -44,4 +44,33 @@ namespace
         EXPECT_EQ(n_cells, triangulation->n_global_active_cells()) << name;
       }
   }
+
+  /** A field of another mesh, of which the rank owned the same range by chance, gets the ghosts of this one. */
+  TEST(FluidSpaceOnDomain, FieldsOfAnotherMeshGetItsGhosts)
+  {
+    dealii::ParameterHandler prm;
+    mesh::Domain<2>          domain;
+    set_parameters(domain, prm, {{"Domain/Mesh file", "quadrilaterals_41.msh"}});
+    domain.initialize(MPI_COMM_WORLD, std::string(ALLUVIUM_TEST_DATA));
+    const auto                   triangulation = domain.make_triangulation(0.);
+    fluid::BoundaryConditions<2> boundary_conditions;
+    for (const auto &[boundary, id] : domain.boundary_ids())
+      boundary_conditions.set(id, {fluid::BoundaryConditions<2>::Kind::no_slip, boundary, nullptr});
+    boundary_conditions.pin(true);
+    fluid::FluidSpace<2> space(*triangulation);
+    space.reinit(boundary_conditions);
+
+    const auto without_ghosts = [](const fluid::Vector &field) {
+      return fluid::Vector(field.locally_owned_elements(), field.get_mpi_communicator());
+    };
+    fluid::Vector      nodal = without_ghosts(space.make_nodal_field());
+    fluid::BlockVector field(2);
+    for (unsigned int b = 0; b < 2; ++b)
+      field.block(b) = without_ghosts(space.make_field().block(b));
+    space.reinit_nodal_field(nodal);
+    space.reinit_field(field);
+    EXPECT_EQ(nodal.get_partitioner(), space.make_nodal_field().get_partitioner());
+    for (unsigned int b = 0; b < 2; ++b)
+      EXPECT_EQ(field.block(b).get_partitioner(), space.make_field().block(b).get_partitioner());
+  }
 } // namespace

@@ -349,8 +349,8 @@ namespace
       boundaries.initialize(domain.boundary_ids(), {});
       space.attach(*mesh);
       space.reinit(boundaries);
-      solution = space.make_field();
-      eps      = space.make_nodal_field();
+      space.reinit_field(solution);
+      space.reinit_nodal_field(eps);
       FunctionParser<2> flow_parser(3), void_fraction_parser(1);
       flow_parser.initialize("x,y", flow, {});
       void_fraction_parser.initialize("x,y", void_fraction, {});

@@ -86,6 +86,13 @@ namespace alluvium::fluid
     BlockVector make_field() const;       // ghosted, zero
     Vector      make_nodal_field() const; // scalar, ghosted, zero
 
+    /**
+     * The same for a field that there is, of this mesh or an earlier one. An assignment would not do: deal.II's vectors
+     * keep their old ghosts if the rank happens to own the same range of indices as before.
+     */
+    void reinit_field(BlockVector &field) const;
+    void reinit_nodal_field(Vector &field) const;
+
     /** Velocities of the fluid by nodal dof [m/s]. */
     using GivenVelocities = std::map<dealii::types::global_dof_index, dealii::Tensor<1, dim>>;
 

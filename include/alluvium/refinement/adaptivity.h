@@ -69,7 +69,7 @@ namespace alluvium::refinement
      * `after()`; neither is called if nothing is to change. Typically with a FieldTransfer:
      *
      *   adapt(mesh, context, [&] { transfer.prepare({&old}); },
-     *                        [&] { space.reinit(bc); old = space.make_field();
+     *                        [&] { space.reinit(bc); space.reinit_field(old);
      *                              transfer.interpolate({&old}, space.hanging_constraints(), {},
      * space.nodal_constraints()); });
      *
