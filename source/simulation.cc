@@ -9,6 +9,7 @@
 #include <alluvium/run/run_guard.h>
 #include <alluvium/run/scene_report.h>
 #include <alluvium/run/set_up.h>
+#include <alluvium/run/time_step_control.h>
 #include <alluvium/scene/declared_parameters.h>
 #include <alluvium/simulation.h>
 #include <alluvium/utilities/atomic_file.h>
@@ -19,6 +20,8 @@
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/parameter_handler.h>
+
+#include <nlohmann/json.hpp>
 
 #include <iostream>
 #include <sstream>
@@ -33,6 +36,7 @@ namespace alluvium
     explicit Implementation(MPI_Comm communicator)
       : model(communicator)
       , output(model)
+      , time_step(model)
       , guard(model, output)
     {}
 
@@ -50,9 +54,11 @@ namespace alluvium
     void report_restart() const;
     bool has_ended() const { return model.time >= end_time - 1e-6 * model.time_step; }
     int  advance();
-    void choose_time_step(double full);
     void step();
+    bool try_step(bool mesh_has_changed);
     void count_step();
+
+    run::TimeStepControl time_step;
 
     run::RunGuard guard;
     bool          restart  = false;
@@ -66,12 +72,13 @@ namespace alluvium
   void Simulation::Implementation::add_parameters(ParameterHandler &prm)
   {
     model.add_parameters(prm);
+    time_step.add_parameters(prm);
     output.add_parameters(prm);
     guard.add_parameters(prm);
     prm.enter_subsection("Time");
     prm.add_parameter("End time",
                       end_time,
-                      "When the run ends [s]. Where it is no multiple of the time step, the last step is shorter.",
+                      "When the run ends [s]. Where it is no multiple of a fixed time step, the last step is shorter.",
                       Patterns::Double(0.));
     prm.leave_subsection();
     prm.enter_subsection("Output");
@@ -83,7 +90,7 @@ namespace alluvium
 
   void Simulation::Implementation::report_scene() const
   {
-    run::report_scene(model, output, end_time, std::cout);
+    run::report_scene(model, output, time_step, end_time, std::cout);
   }
 
 
@@ -96,7 +103,8 @@ namespace alluvium
     const scene::DeclaredParameters declared(prm);
     for (const auto &p : declared.parameters())
       model.parameters.emplace_back(scene::to_string(p.path), p.value);
-    const auto        timer  = model.timers.scope("set-up");
+    const auto timer = model.timers.scope("set-up");
+    time_step.parse_parameters();
     const std::string remark = output.check_folder(restart, !writes);
     if (!remark.empty())
       model.warnings.print("a run would be refused: " + remark);
@@ -113,7 +121,11 @@ namespace alluvium
                  " s, and Time/End time = " + in_digits(end_time) + " s has passed: nothing is left to do.");
     run::check_boundaries(model, end_time);
     run::check_walls(model);
-    run::check_time_step(model, end_time);
+    std::vector<double> intervals = output.intervals();
+    intervals.push_back(guard.interval_of_checkpoints());
+    time_step.prepare(end_time, intervals);
+    if (!time_step.automatic() || run::stable_step(model, end_time) == 0.) // else it is obeyed
+      run::check_time_step(model, end_time);
     output.choose_observers();
     if (writes && !restart)
       output.make_folder(false);
@@ -152,8 +164,10 @@ namespace alluvium
       {
         checkpoint->resume(output);
         guard.resume(checkpoint->saved_state());
+        time_step.load(checkpoint->saved_state());
       }
     checkpoint.reset();
+    guard.also_save([this](nlohmann::ordered_json &state) { time_step.save(state); });
     guard.begin(restart);
     try
       {
@@ -182,10 +196,8 @@ namespace alluvium
     Progress              shown(model.communicator, model.time, end_time, style, std::cout);
     int                   signal = 0;
     guard.start();
-    const double full = model.time_step;
     while (signal == 0 && !has_ended())
       {
-        choose_time_step(full);
         try
           {
             step();
@@ -206,63 +218,79 @@ namespace alluvium
   }
 
 
-  /** The last step ends at the end time; where little would be left for it, it shares with the one before. */
-  void Simulation::Implementation::choose_time_step(const double full)
-  {
-    constexpr double round_off = 1e-6, little = 0.1;
-    const double     left = end_time - model.time;
-    double           dt   = full;
-    if (left < (1. - round_off) * full)
-      dt = left;
-    else if (left > (1. + round_off) * full && left < (1. + little) * full)
-      dt = 0.5 * left;
-    if (dt == model.time_step)
-      return;
-    model.time_step = dt;
-    model.clock     = {model.time, model.n_steps, dt};
-  }
-
-
   /** One step: the order of the paper's section 2.3. */
   void Simulation::Implementation::step()
   {
-    run::Model  &m  = model;
-    const double dt = m.time_step;
+    run::Model &m                = model;
+    bool        mesh_has_changed = false;
     if (run::remove_leavers(m))
       guard.after_removal();
-    if (m.has_fluid)
+    if (m.has_fluid && m.adaptivity.due(m.n_steps) && m.grains.n() > 0) // cell sizes are measured in grains
       {
-        if (m.adaptivity.due(m.n_steps) && m.grains.n() > 0) // cell sizes are measured in grains
-          {
-            guard.before_mesh_change();
-            run::adapt_mesh(m);
-            guard.after_mesh_change();
-          }
-        const auto timer = m.timers.scope("fluid");
-        m.boundary_conditions.set_time(m.time + dt);
-        m.solver.accept();
-        m.coupling.step(m.boundary_conditions, m.grains, m.touched, dt, !m.grains_move, m.loads);
+        guard.before_mesh_change();
+        mesh_has_changed = run::adapt_mesh(m);
+        guard.after_mesh_change();
       }
-    else
-      run::load_by_gravity(m);
-
+    time_step.choose();
+    while (!try_step(mesh_has_changed))
+      ;
     if (m.grains_move)
       {
-        m.contacts.set_time(m.time);
-        if (m.has_fluid)
-          m.contact_report = m.contact_iteration.advance(m.grains, m.loads, dt, m.gravity);
-        else
-          {
-            const auto timer = m.timers.scope("contacts");
-            m.contact_report = m.contacts.advance(m.grains, m.loads, dt, m.gravity);
-          }
-        guard.judge_contacts(); // before grains are put where they cannot be
         const auto timer = m.timers.scope("contacts");
         m.touched        = m.contacts.touched();
         m.store.check_positions();
         run::count_leavers(m);
       }
     m.time = m.clock.at(++m.n_steps);
+  }
+
+
+  /** Solve fluid and contacts for a step; false if it is too long, and everything as before it. */
+  bool Simulation::Implementation::try_step(const bool mesh_has_changed)
+  {
+    run::Model  &m  = model;
+    const double dt = m.time_step;
+    try
+      {
+        time_step.begin(mesh_has_changed);
+        if (m.has_fluid)
+          {
+            const auto timer = m.timers.scope("fluid");
+            m.boundary_conditions.set_time(time_step.end_of_step());
+            m.coupling.step(m.boundary_conditions, m.grains, m.touched, dt, !m.grains_move, m.loads);
+            if (!time_step.accepts_fluid())
+              return false;
+          }
+        else
+          run::load_by_gravity(m);
+
+        if (m.grains_move)
+          {
+            m.contacts.set_time(m.time);
+            if (m.has_fluid)
+              m.contact_report = m.contact_iteration.advance(m.grains, m.loads, dt, m.gravity);
+            else
+              {
+                const auto timer = m.timers.scope("contacts");
+                m.contact_report = m.contacts.advance(m.grains, m.loads, dt, m.gravity);
+              }
+          }
+        if (!time_step.accepts_step())
+          return false;
+        guard.judge_contacts(); // before grains are put where they cannot be
+        return true;
+      }
+    catch (const Divergence &)
+      {
+        if (!time_step.rescue())
+          throw;
+      }
+    catch (const ExceptionBase &) // of the linear solver
+      {
+        if (!time_step.rescue())
+          throw;
+      }
+    return false;
   }
 
 

@@ -86,6 +86,28 @@ namespace alluvium::fluid
 
 
   template <int dim>
+  std::vector<std::function<double(double)>> Driving<dim>::functions_of_time() const
+  {
+    std::vector<std::function<double(double)>> result;
+    const auto add = [&](const std::string &text, const std::shared_ptr<Function<dim>> &function) {
+      if (!function || !mentions(text, "t"))
+        return;
+      for (unsigned int d = 0; d < dim; ++d)
+        result.push_back([function, d](const double t) {
+          const double now = function->get_time();
+          function->set_time(t);
+          const double value = function->value({}, d);
+          function->set_time(now);
+          return value;
+        });
+    };
+    add(force_text, force_function);
+    add(gradient_text, gradient_function);
+    return result;
+  }
+
+
+  template <int dim>
   Tensor<1, dim> Driving<dim>::background_gradient(const Tensor<1, dim>          &hydrostatic_gradient,
                                                    const std::array<double, dim> &periodic_length) const
   {

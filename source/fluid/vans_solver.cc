@@ -256,6 +256,14 @@ namespace alluvium::fluid
 
 
   template <int dim>
+  void VansSolver<dim>::take_back()
+  {
+    iterate = previous;
+    iterate.update_ghost_values();
+  }
+
+
+  template <int dim>
   void VansSolver<dim>::set_solution(const BlockVector &field)
   {
     iterate  = field;

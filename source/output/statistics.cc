@@ -11,17 +11,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <limits>
 #include <sstream>
 
 namespace alluvium::output
 {
-  namespace
-  {
-    const double not_set = std::numeric_limits<double>::quiet_NaN();
-
-  } // namespace
-
   Statistics::Statistics(const std::string &file_name, MPI_Comm communicator, const unsigned int precision)
     : file_name(file_name)
     , communicator(communicator)
@@ -37,14 +30,26 @@ namespace alluvium::output
     AssertThrow(name.find_first_of(",\"\n") == std::string::npos,
                 dealii::ExcMessage("'" + name + "' cannot name a column of a .csv file."));
     columns.push_back(name);
-    row.push_back(not_set);
+    row.emplace_back();
+  }
+
+  std::size_t Statistics::place_of(const std::string &column) const
+  {
+    const auto place = std::find(columns.begin(), columns.end(), column);
+    AssertThrow(place != columns.end(), dealii::ExcMessage("There is no column '" + column + "'."));
+    return place - columns.begin();
   }
 
   void Statistics::set(const std::string &column, const double value)
   {
-    const auto place = std::find(columns.begin(), columns.end(), column);
-    AssertThrow(place != columns.end(), dealii::ExcMessage("There is no column '" + column + "'."));
-    row[place - columns.begin()] = value;
+    row[place_of(column)] = formatted(value);
+  }
+
+  void Statistics::set(const std::string &column, const std::string &word)
+  {
+    AssertThrow(word.find_first_of(",\"\n") == std::string::npos,
+                dealii::ExcMessage("'" + word + "' cannot stand in a .csv file."));
+    row[place_of(column)] = word;
   }
 
   void Statistics::write_row()
@@ -55,14 +60,14 @@ namespace alluvium::output
     if (is_writer)
       {
         for (std::size_t i = 0; i < row.size(); ++i)
-          file << (i == 0 ? "" : ",") << formatted(row[i]);
+          file << (i == 0 ? "" : ",") << row[i];
         errno = 0;
         file << '\n' << std::flush;
         problem = file.good() ? 0 : std::max(errno, 1);
       }
     MPI_Bcast(&problem, 1, MPI_INT, 0, communicator);
     check_user(problem == 0, "cannot write '" + file_name + "': " + std::strerror(problem) + ".");
-    std::fill(row.begin(), row.end(), not_set);
+    std::fill(row.begin(), row.end(), "");
   }
 
   void Statistics::resume(const double time)
@@ -118,7 +123,7 @@ namespace alluvium::output
       if (std::find(all.begin(), all.end(), column) == all.end())
         all.push_back(column);
     columns = all;
-    row.assign(columns.size(), not_set);
+    row.assign(columns.size(), "");
     return n_old;
   }
 

@@ -1,13 +1,12 @@
 #include <alluvium/run/checkpoint.h>
 #include <alluvium/run/good_state.h>
 #include <alluvium/run/model.h>
-#include <alluvium/run/output.h>
 
 #include <deal.II/grid/tria.h>
 
 namespace alluvium::run
 {
-  void GoodState::keep(const Model &m, const Output &output)
+  void GoodState::keep(const Model &m, const std::function<void(nlohmann::ordered_json &)> &save)
   {
     at_time = m.time;
     at_step = m.n_steps;
@@ -21,10 +20,10 @@ namespace alluvium::run
     leavers = m.leavers;
     if (m.grains_move)
       contacts = m.contacts.archive();
-    counts    = m.counts;
-    of_output = {};
+    counts = m.counts;
+    more   = {};
     if (m.speaks)
-      output.save(of_output);
+      save(more);
     exists = true;
   }
 
@@ -49,6 +48,6 @@ namespace alluvium::run
         m.coupling.reinit();
         m.coupling.update_void_fraction(m.grains);
       }
-    Checkpoint::write(folder, m, [&](nlohmann::ordered_json &state) { state.update(of_output); });
+    Checkpoint::write(folder, m, [&](nlohmann::ordered_json &state) { state.update(more); });
   }
 } // namespace alluvium::run

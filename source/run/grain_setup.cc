@@ -20,7 +20,7 @@ namespace alluvium::run
   {
     /** Run @p make on one rank; its result, or its UserError, reaches all. */
     template <typename Make>
-    auto on_first_rank(MPI_Comm communicator, const Make &make)
+    auto made_on_first_rank(MPI_Comm communicator, const Make &make)
     {
       decltype(make()) result;
       std::string      error;
@@ -149,7 +149,7 @@ namespace alluvium::run
     // one rank makes them, as plain numbers for all
     constexpr unsigned int    n_numbers = 7;
     const std::vector<double> numbers =
-      broadcast_numbers(communicator, on_first_rank(communicator, [&] {
+      broadcast_numbers(communicator, made_on_first_rank(communicator, [&] {
                           std::vector<std::string>          warnings;
                           const std::vector<deposits::Seed> seeds =
                             make_deposit(deposit.get(),

@@ -25,12 +25,6 @@ namespace alluvium::run
   {
     prm.add_parameter(
       "Gravity", gravity_text, "Acceleration of gravity, x and y [m/s^2].", Patterns::List(Patterns::Double(), 2, 2));
-    prm.enter_subsection("Time");
-    prm.add_parameter("Time step",
-                      time_step,
-                      "Step of the fluid and of the coupling [s]; contacts take sub-steps.",
-                      Patterns::Double(1e-12));
-    prm.leave_subsection();
     prm.enter_subsection("Fluid");
     prm.add_parameter(
       "Model",

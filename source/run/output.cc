@@ -55,7 +55,7 @@ namespace alluvium::run
     output_folder.add_parameters(prm);
     choice.add_parameters(prm,
                           "Observers",
-                          "head, motion, support, flux, bed, audit, leavers, walls",
+                          "head, motion, support, flux, bed, audit, leavers, walls, time step",
                           "What to measure; those that a scene gives nothing to are left out.",
                           true);
     prm.leave_subsection();
@@ -201,7 +201,8 @@ namespace alluvium::run
             model.communicator,
             model.mesh_change ? &*model.mesh_change : nullptr,
             model.leavers,
-            model.contacts.walls()};
+            model.contacts.walls(),
+            model.time_step_choice ? &*model.time_step_choice : nullptr};
   }
 
 

@@ -62,7 +62,7 @@ namespace alluvium::run
   {
     meter.begin(model);
     fastest = fastest_grain(model);
-    good.keep(model, output);
+    keep_good_state();
     write_provisional_summary();
   }
 
@@ -85,7 +85,7 @@ namespace alluvium::run
   {
     meter.forget_mesh();
     if (monitor.is_calm())
-      good.keep(model, output);
+      keep_good_state();
   }
 
 
@@ -164,9 +164,18 @@ namespace alluvium::run
           write_checkpoint();
         constexpr unsigned int keep_interval = 10;
         if (model.n_steps % keep_interval == 0)
-          good.keep(model, output);
+          keep_good_state();
       }
     write_provisional_summary();
+  }
+
+
+  void RunGuard::keep_good_state()
+  {
+    good.keep(model, [&](nlohmann::ordered_json &state) {
+      output.save(state);
+      save_more(state);
+    });
   }
 
 
@@ -177,6 +186,7 @@ namespace alluvium::run
     Checkpoint::write(output.folder().file("checkpoint"), model, [&](nlohmann::ordered_json &state) {
       output.save(state);
       monitor.save(state);
+      save_more(state);
     });
     checkpoint_step = model.n_steps;
     is_due          = false;

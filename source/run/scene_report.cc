@@ -3,6 +3,7 @@
 #include <alluvium/run/output.h>
 #include <alluvium/run/scene_numbers.h>
 #include <alluvium/run/scene_report.h>
+#include <alluvium/run/time_step_control.h>
 #include <alluvium/utilities/digits.h>
 
 #include <deal.II/grid/tria.h>
@@ -133,7 +134,8 @@ namespace alluvium::run
   } // namespace
 
 
-  void report_scene(const Model &m, const Output &output, const double end_time, std::ostream &out)
+  void report_scene(
+    const Model &m, const Output &output, const TimeStepControl &control, const double end_time, std::ostream &out)
   {
     const SceneNumbers s = find_scene_numbers(m, end_time); // collective
     if (!m.speaks)
@@ -199,7 +201,7 @@ namespace alluvium::run
                     : "") +
                  "; Shields number 1 is a shear stress of " + rounded(s.shields_stress) + " Pa");
         line("time step",
-             in_digits(m.time_step) + " s" +
+             (control.automatic() ? control.description() + "; with " : "") + in_digits(m.time_step) + " s" +
                (s.relaxation_time > 0. ? ": " + rounded(m.time_step / s.relaxation_time) + " tau_p (" +
                                            rounded(s.relaxation_time) + " s" + (s.eps < 1. ? ", in the bed)" : ")")
                                        : "") +

@@ -19,7 +19,7 @@ as_it_comes=(--set 'Contacts/Residual tolerance=1e-5' --set 'Contacts/Largest vi
 
 disturb() { # KIND RANKS KILLS SEED STEPS [ARGUMENTS...]
   echo "${!1}" | scene_from bed
-  "$SCENES/kill-and-resume" --ranks "$2" --kills "$3" --seed "$4" bed.prm "${as_it_comes[@]}" \
+  "$SCENES/kill-and-resume" ${same_checkpoints:+--same-checkpoints} --ranks "$2" --kills "$3" --seed "$4" bed.prm "${as_it_comes[@]}" \
     --set "Time/End time=${5}e-3" "${@:6}" || fail "$1 on $2 rank(s): ${*:6}"
   rm bed.prm
 }
@@ -28,9 +28,13 @@ if [ -z "${MORE:-}" ]; then
   disturb lifted 1 4 1 24
   disturb periodic 2 3 2 18
   disturb dry 2 3 3 18
+  same_checkpoints=1 disturb lifted 2 4 4 24 --set 'Time/Time step=auto'
   exit 0
 fi
 for ranks in 1 2; do
+  for kind in lifted periodic dry; do
+    same_checkpoints=1 disturb $kind $ranks 10 $((30 + ranks)) 60 --set 'Time/Time step=auto'
+  done
   for kind in lifted periodic dry resting triangles uniform; do
     disturb $kind $ranks 20 $((10 + ranks)) 100
   done

@@ -4,9 +4,11 @@
 #include <deal.II/base/tensor.h>
 
 #include <array>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace dealii
 {
@@ -39,6 +41,10 @@ namespace alluvium::fluid
      */
     dealii::Tensor<1, dim> background_gradient(const dealii::Tensor<1, dim>  &hydrostatic_gradient,
                                                const std::array<double, dim> &periodic_length) const;
+
+    /** Components of body force [N/m^3] and mean pressure gradient [Pa/m] that depend on time [s], as functions of it.
+     */
+    std::vector<std::function<double(double)>> functions_of_time() const;
 
     /** [N/m^3] of fluid */
     const dealii::Tensor<1, dim> &body_force() const { return force; }

@@ -46,6 +46,9 @@ namespace alluvium::fluid
       driving.initialize(constants, space->periodic_box().length);
     }
 
+    /** See Driving::functions_of_time(). */
+    std::vector<std::function<double(double)>> driving_functions() const { return driving.functions_of_time(); }
+
     /** Gradient of the pressure that the solution leaves out, datum() aside [Pa/m]; at the time of the latest step. */
     dealii::Tensor<1, dim> background_gradient() const
     {
@@ -68,6 +71,9 @@ namespace alluvium::fluid
 
     /** Start of the next step: u^n <- u^{n+1}. Until then flux() and interphase_force() belong to the last one. */
     void accept();
+
+    /** Before accept(): the latest step is to be solved once more, from u^n, with another length. */
+    void take_back();
 
     /**
      * Outflow of the mixture through a boundary with the latest solution and terms [m^2/s]. Where the velocity is given

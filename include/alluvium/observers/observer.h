@@ -5,6 +5,7 @@
 #include <alluvium/grains/bed_faces.h>
 #include <alluvium/grains/leavers.h>
 #include <alluvium/observers/mesh_change.h>
+#include <alluvium/observers/time_step_choice.h>
 #include <alluvium/output/statistics.h>
 #include <alluvium/output/summary.h>
 #include <alluvium/utilities/plugin.h>
@@ -53,6 +54,8 @@ namespace alluvium::observers
     const grains::Leavers          &leavers;
 
     const std::vector<grains::WallSegment> &walls; // of the grains
+
+    const TimeStepChoice *time_step_choice; // null where steps are given
   };
 
   /**

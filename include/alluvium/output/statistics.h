@@ -24,6 +24,8 @@ namespace alluvium::output
     void add_column(const std::string &name);
 
     void set(const std::string &column, double value);
+    /** A word, without comma and quotation mark. */
+    void set(const std::string &column, const std::string &word);
 
     /** Write what was set since the last row; columns that were not are left empty. Collective. */
     void write_row();
@@ -39,6 +41,7 @@ namespace alluvium::output
     void        open(bool append);
     std::size_t take_columns_of(const std::string &line);
     std::string header() const;
+    std::size_t place_of(const std::string &column) const;
     std::string formatted(double value) const;
 
     const std::string        file_name;
@@ -47,7 +50,7 @@ namespace alluvium::output
     const bool               is_writer;
     bool                     is_started = false;
     std::vector<std::string> columns;
-    std::vector<double>      row; // NaN: not set
+    std::vector<std::string> row; // as written; empty: not set
     std::ofstream            file;
   };
 } // namespace alluvium::output

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -15,14 +16,14 @@
 namespace alluvium::run
 {
   struct Model;
-  class Output;
 
   /** The state after the last step known to be good, kept in memory: what a run that fails leaves as its checkpoint. */
   class GoodState
   {
   public:
-    /** Keep the present state of @p model and what @p output remembers. Collective. */
-    void keep(const Model &model, const Output &output);
+    /** Keep the present state of @p model, and what @p save adds for a checkpoint on the rank that speaks. Collective.
+     */
+    void keep(const Model &model, const std::function<void(nlohmann::ordered_json &)> &save);
 
     /** The mesh is going to change, or the state is no good any more. */
     void forget() { exists = false; }
@@ -47,6 +48,6 @@ namespace alluvium::run
     contacts::ContactArchive      contacts;
     grains::Leavers               leavers;
     std::map<std::string, double> counts;
-    nlohmann::ordered_json        of_output;
+    nlohmann::ordered_json        more;
   };
 } // namespace alluvium::run

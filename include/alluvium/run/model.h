@@ -11,6 +11,7 @@
 #include <alluvium/grains/leavers.h>
 #include <alluvium/mesh/domain.h>
 #include <alluvium/observers/mesh_change.h>
+#include <alluvium/observers/time_step_choice.h>
 #include <alluvium/refinement/adaptivity.h>
 #include <alluvium/run/grain_setup.h>
 #include <alluvium/utilities/timers.h>
@@ -98,6 +99,8 @@ namespace alluvium::run
 
     bool                                 watches_mesh_changes = false; // does an observer want to know of them?
     std::optional<observers::MeshChange> mesh_change;                  // the latest, if so
+
+    std::optional<observers::TimeStepChoice> time_step_choice; // of the latest step, where the program chooses
 
     std::vector<std::pair<std::string, std::string>> parameters; // all of them as used; a checkpoint keeps them
 

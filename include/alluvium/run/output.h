@@ -43,6 +43,9 @@ namespace alluvium::run
 
     const output::OutputFolder &folder() const { return output_folder; }
 
+    /** Between two outputs of each kind [s]; 0: in every step, or never. */
+    std::vector<double> intervals() const { return {row_interval, picture_interval}; }
+
     /** As OutputFolder::check(). Collective. */
     std::string check_folder(bool is_restart, bool may_hold_a_run);
 

@@ -9,6 +9,7 @@
 #include <alluvium/utilities/failure.h>
 
 #include <chrono>
+#include <functional>
 #include <string>
 
 namespace dealii
@@ -61,6 +62,12 @@ namespace alluvium::run
     /** Write a checkpoint if one is due, and keep the state if it is good. Collective. */
     void keep();
 
+    /** Between two checkpoints [s]; 0: there are none before the end. */
+    double interval_of_checkpoints() const { return interval; }
+
+    /** Let @p save put what it remembers into each checkpoint, on the rank that speaks. */
+    void also_save(const std::function<void(nlohmann::ordered_json &)> &save) { save_more = save; }
+
     /** How the last step went, for the progress. */
     std::string state_in_words() const;
 
@@ -72,6 +79,7 @@ namespace alluvium::run
 
   private:
     void        raise(const Sign &sign, unsigned int step, double time);
+    void        keep_good_state();
     void        write_checkpoint();
     void        write_good_state();
     void        write_provisional_summary();
@@ -91,6 +99,8 @@ namespace alluvium::run
     bool              has_judged      = false; // that the step failed: the error has its place
     long              checkpoint_step = -1;    // of the one in the folder
     MPI_Comm          of_failures     = MPI_COMM_NULL;
+
+    std::function<void(nlohmann::ordered_json &)> save_more = [](nlohmann::ordered_json &) {};
 
     std::chrono::steady_clock::time_point last_summary{};
   };
