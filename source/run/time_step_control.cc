@@ -68,8 +68,7 @@ namespace alluvium::run
     prm.add_parameter(
       "Largest time step",
       largest,
-      "No step is longer [s]. 0: a twentieth of the time to the end. Steps end where rows of statistics "
-      "are due, too.",
+      "No step is longer [s]. 0: Interval of statistics, or, if that is 0, too, a twentieth of the time to the end.",
       Patterns::Double(0.));
     prm.add_parameter(
       "Smallest time step",
@@ -120,7 +119,7 @@ namespace alluvium::run
     if (!is_automatic)
       return;
     if (largest == 0.)
-      largest = end_time / 20.;
+      largest = !output_intervals.empty() && output_intervals[0] > 0. ? output_intervals[0] : end_time / 20.;
     if (smallest == 0.)
       {
         smallest = 1e-6 * largest;
@@ -325,7 +324,13 @@ namespace alluvium::run
         return false;
       }
     if (fluid_defect > 1. || grain_defect > much)
-      model.counts["time steps above the tolerance"] += 1;
+      {
+        model.counts["time steps above the tolerance"] += 1;
+        model.warnings.add(
+          "chosen time steps had a larger error than Time/Automatic time step/Tolerance, since shorter ones "
+          "than its `Smallest time step` are not tried",
+          model.time);
+      }
 
     std::vector<Limit> limits;
     const double       factor = controller.accepted(std::max(fluid_defect, grain_defect));
@@ -375,6 +380,8 @@ namespace alluvium::run
         {"taken back", coming.n_taken_back},
         {"error", controller.previous_error()},
         {"speed", fluid_error.largest_speed()},
+        {"small speed", small_speed}, // these two are of the grains at t = 0
+        {"smallest", smallest},
         {"stable", std::isfinite(stable) ? stable : -1.},
       };
   }
@@ -391,6 +398,8 @@ namespace alluvium::run
     coming.n_taken_back = saved.at("taken back");
     controller.set_previous_error(saved.at("error"));
     fluid_error.set_largest_speed(saved.at("speed"));
+    small_speed = saved.at("small speed");
+    smallest    = saved.at("smallest");
     has_history = true;
     stable      = saved.at("stable");
     if (stable < 0.)

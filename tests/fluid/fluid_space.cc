@@ -10,23 +10,36 @@ namespace
   using namespace alluvium;
   using namespace mesh_test;
 
+  /** On the mesh of a file in tests/data, with walls all around. */
+  struct SpaceOfMeshFile
+  {
+    dealii::ParameterHandler                     prm;
+    mesh::Domain<2>                              domain;
+    std::unique_ptr<dealii::Triangulation<2, 2>> triangulation;
+    std::unique_ptr<fluid::FluidSpace<2>>        space;
+
+    explicit SpaceOfMeshFile(const std::string &file)
+    {
+      set_parameters(domain, prm, {{"Domain/Mesh file", file}});
+      domain.initialize(MPI_COMM_WORLD, std::string(ALLUVIUM_TEST_DATA));
+      triangulation = domain.make_triangulation(0.);
+      fluid::BoundaryConditions<2> boundary_conditions;
+      for (const auto &[boundary, id] : domain.boundary_ids())
+        boundary_conditions.set(id, {fluid::BoundaryConditions<2>::Kind::no_slip, boundary, nullptr});
+      boundary_conditions.pin(true);
+      space = std::make_unique<fluid::FluidSpace<2>>(*triangulation);
+      space->reinit(boundary_conditions);
+    }
+  };
+
   /** The fluid's space on the meshes of a domain: the same on any number of ranks. */
   TEST(FluidSpaceOnDomain, TrianglesAndQuadrilateralsOfAMeshFile)
   {
     for (const std::string name : {"triangles_41", "quadrilaterals_41"})
       {
-        dealii::ParameterHandler prm;
-        mesh::Domain<2>          domain;
-        set_parameters(domain, prm, {{"Domain/Mesh file", name + ".msh"}});
-        domain.initialize(MPI_COMM_WORLD, std::string(ALLUVIUM_TEST_DATA));
-        const auto triangulation = domain.make_triangulation(0.);
-
-        fluid::BoundaryConditions<2> boundary_conditions;
-        for (const auto &[boundary, id] : domain.boundary_ids())
-          boundary_conditions.set(id, {fluid::BoundaryConditions<2>::Kind::no_slip, boundary, nullptr});
-        boundary_conditions.pin(true);
-        fluid::FluidSpace<2> space(*triangulation);
-        space.reinit(boundary_conditions);
+        const SpaceOfMeshFile       of_file(name + ".msh");
+        const fluid::FluidSpace<2> &space         = *of_file.space;
+        const auto                 &triangulation = of_file.triangulation;
 
         EXPECT_EQ(space.n_dofs(), 3 * space.nodal_dof_handler().n_dofs()) << name;
         EXPECT_EQ(space.nodal_dof_handler().n_dofs(), name == "triangles_41" ? triangulation->n_vertices() : 21u);
@@ -48,19 +61,9 @@ namespace
   /** A field of another mesh, of which the rank owned the same range by chance, gets the ghosts of this one. */
   TEST(FluidSpaceOnDomain, FieldsOfAnotherMeshGetItsGhosts)
   {
-    dealii::ParameterHandler prm;
-    mesh::Domain<2>          domain;
-    set_parameters(domain, prm, {{"Domain/Mesh file", "quadrilaterals_41.msh"}});
-    domain.initialize(MPI_COMM_WORLD, std::string(ALLUVIUM_TEST_DATA));
-    const auto                   triangulation = domain.make_triangulation(0.);
-    fluid::BoundaryConditions<2> boundary_conditions;
-    for (const auto &[boundary, id] : domain.boundary_ids())
-      boundary_conditions.set(id, {fluid::BoundaryConditions<2>::Kind::no_slip, boundary, nullptr});
-    boundary_conditions.pin(true);
-    fluid::FluidSpace<2> space(*triangulation);
-    space.reinit(boundary_conditions);
-
-    const auto without_ghosts = [](const fluid::Vector &field) {
+    const SpaceOfMeshFile       of_file("quadrilaterals_41.msh");
+    const fluid::FluidSpace<2> &space          = *of_file.space;
+    const auto                  without_ghosts = [](const fluid::Vector &field) {
       return fluid::Vector(field.locally_owned_elements(), field.get_mpi_communicator());
     };
     fluid::Vector      nodal = without_ghosts(space.make_nodal_field());

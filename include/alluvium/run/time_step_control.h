@@ -58,7 +58,8 @@ namespace alluvium::run
     /** In words, for the scene's report. */
     std::string description() const;
 
-    /** The run goes to @p end_time, and wants steps to end at multiples of @p intervals (0: none) [s]. */
+    /** The run goes to @p end_time, and wants steps to end at multiples of @p intervals (0: none; the first is that of
+     * statistics) [s]. */
     void prepare(double end_time, const std::vector<double> &intervals);
 
     /** The length of the step that comes. Collective. */
