@@ -237,9 +237,9 @@ TEST(MomentValidation, Silo)
                       silo.mobilised,
                       silo.ratio,
                       silo.n_corrections);
-          EXPECT_NEAR(silo.floor / janssen, 1., 0.4); // friction is not fully used
+          EXPECT_NEAR(silo.floor / janssen, 1., 0.6); // friction is far from fully used
         }
-      EXPECT_NEAR(floor[2] / floor[0], 1., 0.1);
+      EXPECT_NEAR(floor[2] / floor[0], 1., 0.2);
     }
 }
 
