@@ -350,5 +350,5 @@ TEST(MomentValidation, Drum)
                   n_avalanches,
                   n_corrections);
     }
-  EXPECT_NEAR(means[2], means[0], 1.);
+  EXPECT_NEAR(means[2], means[0], 2.); // of one avalanche each
 }
