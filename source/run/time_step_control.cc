@@ -73,9 +73,9 @@ namespace alluvium::run
     prm.add_parameter(
       "Smallest time step",
       smallest,
-      "Shorter steps are not tried [s]. 0: a millionth of the largest, and where grains move a thousandth of "
-      "the time sqrt(d/g) in which one falls by its radius: what they overlap, 1e-5 d or so, opens in one "
-      "step, with a speed that should not matter.",
+      "Shorter steps are not tried [s], but for the time scheme's stability. 0: a millionth of the largest, and where "
+      "grains move 1e-2 sqrt(d/g): what they overlap, up to 1e-4 d, opens in one step, and is to do so with less than "
+      "g dt.",
       Patterns::Double(0.));
     prm.leave_subsection();
     prm.leave_subsection();
@@ -125,7 +125,7 @@ namespace alluvium::run
         smallest = 1e-6 * largest;
         if (model.grains_move && model.grains.n() > 0 && model.gravity_size() > 0.)
           smallest =
-            std::clamp(1e-3 * std::sqrt(grains::mean_diameter(model.grains) / model.gravity_size()), smallest, largest);
+            std::clamp(1e-2 * std::sqrt(grains::mean_diameter(model.grains) / model.gravity_size()), smallest, largest);
       }
     check_user(smallest <= largest,
                "Time/Automatic time step/Smallest time step: " + in_digits(smallest) + " s is above the largest, " +
@@ -207,7 +207,7 @@ namespace alluvium::run
     double           dt     = wanted;
     if (stable > 0. && safety * stable < dt) // 0: no step is stable, which has been warned of
       {
-        dt           = std::max(smallest, safety * stable);
+        dt           = safety * stable;
         coming.limit = "stability";
       }
     set(dt);

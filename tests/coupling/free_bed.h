@@ -12,7 +12,8 @@ namespace bed
   {
     double       density = 2630., friction = 0.4, across = 20.; // [kg/m^3], and [d]
     unsigned int n                  = 240;
-    double       residual_tolerance = 1e-6; // of the contacts
+    double       residual_tolerance = 1e-6;  // of the contacts
+    bool         is_strict          = false; // nothing but that tolerance ends a solve
   };
 
   class FreeBed
@@ -31,8 +32,13 @@ namespace bed
                          {{{0., 0.}}, {{0., 1.}}, {}, "left"},
                          {{{width, 0.}}, {{width, 1.}}, {}, "right"}});
       stepper.settings().residual_tolerance = f.residual_tolerance;
-      stepper.settings().friction           = f.friction;
-      double area                           = 0.;
+      if (f.is_strict)
+        {
+          stepper.settings().loose         = 1.;
+          stepper.settings().halve_stalled = true;
+        }
+      stepper.settings().friction = f.friction;
+      double area                 = 0.;
       for (const auto &seed : settled_seeds(1, f.n, width))
         {
           grains.resize(grains.n() + 1);
