@@ -1,5 +1,5 @@
+#include <alluvium/contacts/step_start.h>
 #include <alluvium/coupling/contact_iteration.h>
-#include <alluvium/grains/grain_columns.h>
 #include <alluvium/utilities/anderson_mixing.h>
 
 #include <algorithm>
@@ -92,14 +92,14 @@ namespace alluvium::coupling
     const bool                   tries = limit.largest_number > 0;
     // the tolerance of 1e-2 bears contacts a hundred times looser, a tight one none
     const double             haste = tries ? std::clamp(1e4 * limit.tolerance, 1., 100.) : 1.;
-    Start                    start;
+    contacts::StepStart      start;
     AndersonMixing           mixing(depth);
     std::vector<GrainMotion> motions;
     GrainMotion              guess;
     double                   best      = std::numeric_limits<double>::max();
     unsigned int             n_stalled = 0;
     if (tries)
-      start = remember(grains);
+      start.remember(grains, contacts);
     contacts::ContactReport tried; // what it has cost
     const auto              count = [&](contacts::ContactReport &report) {
       tried.n_sweeps      = report.n_sweeps += tried.n_sweeps;
@@ -119,7 +119,7 @@ namespace alluvium::coupling
           {
             if (answer.report.hasty)
               {
-                go_back_to(start, grains);
+                start.restore(grains, contacts);
                 answer = move(grains, loads, dt, gravity, 1.);
                 count(answer.report);
                 agree = agrees(answer, tolerance); // hasty only if the step may be repeated
@@ -134,27 +134,9 @@ namespace alluvium::coupling
         const std::vector<double> weights = mixing.weights();
         mix(motions, weights, guess);
         const auto timer = timers.scope("fluid");
-        go_back_to(start, grains);
+        start.restore(grains, contacts);
         coupling.repeat(guess, weights, loads);
       }
-  }
-
-
-  ContactIteration::Start ContactIteration::remember(const grains::GrainArrays &grains) const
-  {
-    Start start{contacts.memory(), {}};
-    for (const auto *column : columns_of(grains, grains::GrainColumn::When::changing))
-      start.columns.push_back(*column);
-    return start;
-  }
-
-
-  void ContactIteration::go_back_to(const Start &start, grains::GrainArrays &grains)
-  {
-    contacts.restore(start.contacts);
-    const auto columns = columns_of(grains, grains::GrainColumn::When::changing);
-    for (std::size_t c = 0; c < columns.size(); ++c)
-      *columns[c] = start.columns[c];
   }
 
 

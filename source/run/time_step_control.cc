@@ -1,5 +1,4 @@
 #include <alluvium/grains/bed_faces.h>
-#include <alluvium/grains/grain_columns.h>
 #include <alluvium/run/check_time_step.h>
 #include <alluvium/run/kinks.h>
 #include <alluvium/run/model.h>
@@ -232,13 +231,7 @@ namespace alluvium::run
         model.solver.accept();
       }
     if (model.grains_move)
-      {
-        contacts = model.contacts.memory();
-        columns.clear();
-        for (const auto *column : grains::columns_of(model.grains, grains::GrainColumn::When::changing))
-          columns.push_back(*column);
-        velocity = model.grains.velocity;
-      }
+      start.remember(model.grains, model.contacts);
   }
 
 
@@ -247,12 +240,7 @@ namespace alluvium::run
     if (model.has_fluid)
       model.solver.take_back();
     if (model.grains_move)
-      {
-        model.contacts.restore(contacts);
-        const auto now = grains::columns_of(model.grains, grains::GrainColumn::When::changing);
-        for (std::size_t c = 0; c < now.size(); ++c)
-          *now[c] = columns[c];
-      }
+      start.restore(model.grains, model.contacts);
     ++coming.n_taken_back;
     model.counts["time steps taken back"] += 1;
     coming.limit = reason;
@@ -287,7 +275,7 @@ namespace alluvium::run
   {
     const double change = fourth_mean(model.grains, [&](const std::size_t i) {
       return std::array<double, 2>{
-        {model.grains.velocity[0][i] - velocity[0][i], model.grains.velocity[1][i] - velocity[1][i]}};
+        {model.grains.velocity[0][i] - start.velocity()[0][i], model.grains.velocity[1][i] - start.velocity()[1][i]}};
     });
     return 0.5 * model.time_step * change / (0.1 * grains::mean_diameter(model.grains));
   }

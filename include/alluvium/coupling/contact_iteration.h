@@ -44,15 +44,6 @@ namespace alluvium::coupling
       std::vector<double>     unseen; // Coupling::unseen_force()
     };
 
-    /** What a repetition starts from. */
-    struct Start
-    {
-      contacts::ContactMemory          contacts;
-      std::vector<std::vector<double>> columns; // of the grains, that a step changes
-    };
-
-    Start  remember(const grains::GrainArrays &grains) const;
-    void   go_back_to(const Start &start, grains::GrainArrays &grains);
     Answer move(grains::GrainArrays         &grains,
                 const grains::GrainLoads    &loads,
                 double                       dt,

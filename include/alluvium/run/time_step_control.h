@@ -1,7 +1,6 @@
 #pragma once
 
-#include <alluvium/contacts/contact_memory.h>
-#include <alluvium/grains/grain_arrays.h>
+#include <alluvium/contacts/step_start.h>
 #include <alluvium/observers/time_step_choice.h>
 #include <alluvium/run/fluid_error.h>
 #include <alluvium/run/pi_controller.h>
@@ -120,9 +119,6 @@ namespace alluvium::run
     bool   has_history  = false; // of a step that was chosen
     bool   is_smooth = false, again = false;
 
-    // what a step is taken back to
-    grains::Components               velocity;
-    std::vector<std::vector<double>> columns;
-    contacts::ContactMemory          contacts;
+    contacts::StepStart start; // what a step is taken back to
   };
 } // namespace alluvium::run
