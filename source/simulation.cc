@@ -116,7 +116,9 @@ namespace alluvium
         changes    = checkpoint->compare_parameters(model);
       }
     run::set_up(model, directory, checkpoint.get());
-    check_user(!restart || !has_ended(),
+    // a run that was killed between its last checkpoint and its summary has the summary left to do
+    check_user(!restart || !has_ended() ||
+                 (model.time <= end_time + 1e-6 * model.time_step && !output.holds_finished_run()),
                "Output/Restart: the checkpoint is of t = " + in_digits(model.time) +
                  " s, and Time/End time = " + in_digits(end_time) + " s has passed: nothing is left to do.");
     run::check_boundaries(model, end_time);

@@ -30,8 +30,12 @@ namespace alluvium::observers
         summary.set("head/final_m", last);
         summary.set("head/largest_m", largest);
       }
-      void save(nlohmann::ordered_json &state) const override { state = largest; }
-      void load(const nlohmann::ordered_json &state) override { largest = state.get<double>(); }
+      void save(nlohmann::ordered_json &state) const override { state = {largest, last}; }
+      void load(const nlohmann::ordered_json &state) override
+      {
+        largest = state.at(0).get<double>();
+        last    = state.at(1).get<double>();
+      }
 
     private:
       double last = 0., largest = 0.;

@@ -81,6 +81,12 @@ namespace alluvium::output
     return node != nullptr && node->is_number() ? node->get<double>() : std::numeric_limits<double>::quiet_NaN();
   }
 
+  std::string Summary::text(const std::string &path) const
+  {
+    const auto *node = find(*content, path);
+    return node != nullptr && node->is_string() ? node->get<std::string>() : "";
+  }
+
   void Summary::warn(const std::string &text)
   {
     auto &list = (*content)["warnings"];

@@ -103,6 +103,14 @@ namespace alluvium::run
   }
 
 
+  bool Output::holds_finished_run() const
+  {
+    output::Summary left(output_folder.file("summary.json"), model.communicator);
+    left.resume();
+    return left.text("ended") == "finished";
+  }
+
+
   void Output::open()
   {
     const bool hdf5 = format == "hdf5";

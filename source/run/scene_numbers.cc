@@ -77,7 +77,7 @@ namespace alluvium::run
   {
     SceneNumbers s;
     const auto  &g = m.grains;
-    s.n_steps      = std::ceil(std::max(0., end_time - m.time) / m.time_step - 1e-6);
+    s.n_steps      = std::max(0., std::ceil((end_time - m.time) / m.time_step - 1e-6));
     s.diameter     = grains::mean_diameter(g);
     if (g.n() > 0)
       s.radius_factor = g.fluid_radius[0] / g.radius[0];

@@ -22,6 +22,20 @@ must_fail 'the checkpoint is of t = 0.004 s, and Time/End time = 0.003 s has pas
 must_fail 'the checkpoint is of t = 0.004 s, and Time/End time = 0.004 s has passed' 1 "${again[@]}" --set 'Time/End time=0.004'
 contents output | cmp - before || fail "it changed the folder of the run"
 
+# killed between its last checkpoint and its summary, a run has its summary left to do
+cp -r output unconcluded
+sed -i 's/"ended": "finished"/"ended": "failed"/; s/"reason": ".*"/"reason": "killed"/' unconcluded/summary.json
+must_run 1 bed.prm --set Output/Restart=true --set 'Time/End time=0.004' --set 'Output/Output folder=unconcluded'
+cmp output/statistics.csv unconcluded/statistics.csv || fail "the statistics of a run that was ended twice"
+/usr/bin/env python3 - <<'END' || fail "the summary of a run that was ended twice"
+import json
+one, two = (json.load(open(f"{f}/summary.json")) for f in ("output", "unconcluded"))
+for s in (one, two):
+    s.pop("timing")
+differ = {k: (one.get(k), two.get(k)) for k in dict(one, **two) if one.get(k) != two.get(k)}
+assert not differ, differ
+END
+
 # the clock: 0.0045, 0.005, ... and not that of 4 steps of half the length
 cp -r output half && cp -r output double
 must_run 1 "${again[@]}" --set 'Output/Output folder=half' --set 'Time/Time step=5e-4'

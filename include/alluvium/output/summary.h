@@ -36,6 +36,9 @@ namespace alluvium::output
     /** The number at @p path; NaN if there is none. */
     double number(const std::string &path) const;
 
+    /** The text at @p path; empty if there is none. */
+    std::string text(const std::string &path) const;
+
     /** Add to the list "warnings", each text once. */
     void                     warn(const std::string &text);
     std::vector<std::string> warnings() const;

@@ -49,6 +49,9 @@ namespace alluvium::run
     /** As OutputFolder::check(). Collective. */
     std::string check_folder(bool is_restart, bool may_hold_a_run);
 
+    /** Does the summary in the folder tell of a run that has come to its end? */
+    bool holds_finished_run() const;
+
     /** Make the folder that the run writes to, or with @p is_restart check that it is there. Collective. */
     void make_folder(bool is_restart);
 
