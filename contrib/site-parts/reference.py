@@ -22,9 +22,10 @@ def build(root, folder):
     with tempfile.TemporaryDirectory() as scratch:
         main = os.path.join(scratch, "main.dox")
         with open(main, "w") as file:
-            file.write("/** @mainpage Classes\n The library by rooms: namespaces are the rooms of @ref architecture \"the architecture\". "
-                       "<a href=\"../index.html\">Back to the site</a>. */\n".replace("@ref architecture \"the architecture\"",
-                                                                                       "<a href=\"../doc/architecture.html\">the architecture</a>"))
+            file.write('/** @mainpage Classes\n The library, by its rooms (<a href="../doc/architecture.html">architecture</a>): '
+                       '<a href="namespaces.html">namespaces</a>, which are the rooms; <a href="annotated.html">classes</a>; '
+                       '<a href="hierarchy.html">who derives from whom</a>, such as plug-ins from their interface; <a href="files.html">files</a>. '
+                       '<a href="../index.html">Back to the site</a>. */\n')
         settings += "\n".join((
             "", "OUTPUT_DIRECTORY = " + scratch, "INPUT = %s/include %s/source %s" % (root, root, main), "HTML_OUTPUT = html",
             "HTML_EXTRA_STYLESHEET = %s/doxygen-awesome.css %s/doxygen-awesome-sidebar-only.css" % (AWESOME, AWESOME),
