@@ -30,7 +30,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-import vtu
+import vtu  # noqa: F401, which makes the package in contrib/python known
+from alluvium import Run
+from alluvium.draw import use_style
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 STEPS = os.path.join(ROOT, "doc", "steps")
@@ -46,7 +48,7 @@ def load(name, path):
     return module
 
 
-plot = load("plot", os.path.join(ROOT, "contrib", "plot"))
+use_style()
 plt.rcParams.update({"savefig.dpi": 110, "legend.frameon": False})
 
 
@@ -54,32 +56,12 @@ class Failure(Exception):
     pass
 
 
-class Run:
-    """What a run left in its folder."""
-
-    def __init__(self, folder):
-        self.folder = folder
-        self.columns = plot.read_statistics(folder)
-        self.summary = plot.read_summary(folder)
-
-    def last(self, name):
-        return float(self.columns[name][-1])
-
-    def cpu(self, *phases):
-        """CPU seconds of the phases of this name in summary.json, or of all."""
-        timing = self.summary["timing"]
-        return sum(timing[phase]["cpu_s"] for phase in phases or timing if phase in timing)
-
-    def pictures(self, what):
-        """[(time, Grid)] of `grains` or `fluid`."""
-        return [(time, vtu.read_vtu(files)) for time, files in vtu.read_pvd(os.path.join(self.folder, what + ".pvd"))]
-
-
 class Step:
     def __init__(self, number, build, short, scratch):
         self.name, self.build, self.short = "step-%s" % number, build, short
         self.folder = os.path.join(STEPS, self.name)
         self.scratch = scratch
+        self.alluvium, self.scenes = os.path.join(build, "alluvium"), self.folder
         self.numbers, self.order, self.made, self.ran = {}, [], [], []
 
     def run(self, scene, name=None, settings=(), short=(), ranks=1, arguments=(), exit_code=0, keep=False):
@@ -89,7 +71,7 @@ class Step:
         if not keep:
             shutil.rmtree(folder, ignore_errors=True)
         command = ["mpirun", "-np", str(ranks)] if ranks > 1 else []
-        command += [os.path.join(self.build, "alluvium"), os.path.join(self.folder, scene), *arguments]
+        command += [self.alluvium, os.path.join(self.scenes, scene), *arguments]
         settings = [*settings, *(short if self.short else ()), "Output/Output folder=" + folder, "Output/Progress=silent",
                     "Grains/Deposit: settled bed/Cache folder=" + os.path.join(self.scratch, "deposits")]
         for setting in settings:
@@ -104,6 +86,18 @@ class Step:
         if not os.path.exists(path):
             raise Failure("there is no %s: contrib/build %s makes it" % (path, name))
         return self._call([path, *arguments], name, 0)
+
+    def build_against_installed(self):
+        """Install the program in the scratch folder and build the step's own project against that: runs to come use both."""
+        prefix, project = os.path.join(self.scratch, "installed"), os.path.join(self.scratch, "project")
+        for folder in (prefix, project):
+            shutil.rmtree(folder, ignore_errors=True)
+        for component in ("program", "development"):
+            self._call(["cmake", "--install", self.build, "--prefix", prefix, "--component", component], "install", 0)
+        launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
+        self._call(["cmake", "-S", self.folder, "-B", project, "-DCMAKE_PREFIX_PATH=" + prefix, *launcher], "configure", 0)
+        self._call(["cmake", "--build", project], "build", 0)
+        self.alluvium, self.scenes = os.path.join(prefix, "bin", "alluvium"), project
 
     def _call(self, command, name, exit_code):
         self.ran.append(name)

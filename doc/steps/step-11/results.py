@@ -13,7 +13,7 @@ ADAPTIVE = ["Mesh refinement/Criteria=bed faces", "Mesh refinement/Interval=10"]
 def parts(run):
     """The cells of every rank: deal.II writes a piece for each."""
     name = vtu.read_pvd(os.path.join(run.folder, "fluid.pvd"))[0][1][0]
-    return vtu._pieces(name)
+    return vtu.read_pieces(name)
 
 
 def draw(step, runs):
