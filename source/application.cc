@@ -1,12 +1,14 @@
 #include <alluvium/application.h>
 #include <alluvium/scene/declared_parameters.h>
 #include <alluvium/scene/parameter_file.h>
+#include <alluvium/scene/shared_libraries.h>
 #include <alluvium/simulation.h>
 #include <alluvium/utilities/failure.h>
 #include <alluvium/utilities/log.h>
 #include <alluvium/utilities/mpi_environment.h>
 #include <alluvium/utilities/signals.h>
 #include <alluvium/utilities/user_error.h>
+#include <alluvium/utilities/version.h>
 
 #include <deal.II/base/config.h>
 #include <deal.II/base/mpi.h>
@@ -119,7 +121,7 @@ namespace alluvium
       MPI_Get_library_version(mpi, &length);
       const std::string mpi_version(mpi, length);
 
-      out << "alluvium " << ALLUVIUM_VERSION << '\n'
+      out << "alluvium " << version() << '\n'
           << "deal.II  " << DEAL_II_PACKAGE_VERSION << '\n'
           << "Trilinos " << DEAL_II_TRILINOS_VERSION_MAJOR << '.' << DEAL_II_TRILINOS_VERSION_MINOR << '.'
           << DEAL_II_TRILINOS_VERSION_SUBMINOR << '\n'
@@ -137,11 +139,15 @@ namespace alluvium
           return;
         }
 
+      const std::string libraries = scene::load_shared_libraries(command_line.scene, command_line.assignments);
+
       Simulation               simulation(MPI_COMM_WORLD);
       dealii::ParameterHandler prm;
       scene::declare_method(prm);
+      scene::declare_shared_libraries(prm);
       simulation.add_parameters(prm);
       scene::read_parameters(prm, command_line.scene, command_line.assignments, Simulation::paper_method());
+      scene::set_shared_libraries(prm, libraries);
 
       if (command_line.print_parameters)
         {

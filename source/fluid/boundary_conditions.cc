@@ -13,6 +13,35 @@ namespace alluvium::fluid
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** A plug-in as deal.II's functions are. */
+    class PluginFunction : public Function<2>
+    {
+    public:
+      PluginFunction(std::shared_ptr<const BoundaryPlugin> plug_in, const unsigned int n_components)
+        : Function<2>(n_components)
+        , plugin(std::move(plug_in))
+      {}
+
+      double value(const Point<2> &point, const unsigned int component = 0) const override
+      {
+        return plugin->value(point, this->get_time(), component);
+      }
+
+    private:
+      const std::shared_ptr<const BoundaryPlugin> plugin;
+    };
+  } // namespace
+
+
+  template <int dim>
+  bool BoundaryConditions<dim>::Condition::may_depend_on(const std::string &variable) const
+  {
+    return text.empty() || of_plugin || mentions(text, variable);
+  }
+
+
   template <int dim>
   void BoundaryConditions<dim>::add_parameters(ParameterHandler &prm)
   {
@@ -68,7 +97,44 @@ namespace alluvium::fluid
       pin_pressure,
       "In a box closed all around, fix the pressure at one node (its level is arbitrary there). Where a "
       "boundary has a pressure this does nothing.");
+    std::string prose = "Boundaries whose pressure or velocity a plug-in gives, as `name: plug-in; name: plug-in`. ";
+    if (plugins.empty())
+      for (const auto &[name, entry] : Registry<BoundaryPlugin>::entries())
+        plugins.emplace(name, entry.create());
+    prose += plugins.empty() ? "None is known; see Additional shared libraries." : "Known are:";
+    for (const auto &[name, plugin] : plugins)
+      prose += "\n'" + name + "': " + Registry<BoundaryPlugin>::entries().at(name).prose;
+    prm.add_parameter("Plug-ins", by_plugins, prose);
+    for (const auto &[name, plugin] : plugins)
+      {
+        prm.enter_subsection("Plug-ins: " + name);
+        plugin->add_parameters(prm);
+        prm.leave_subsection();
+      }
     prm.leave_subsection();
+  }
+
+
+  template <int dim>
+  std::vector<std::pair<std::string, std::string>> BoundaryConditions<dim>::plugins_by_boundary() const
+  {
+    const std::string where = "Boundary conditions/Plug-ins: ";
+    std::string       known;
+    for (const auto &[name, plugin] : plugins)
+      known += (known.empty() ? "" : ", ") + name;
+    std::vector<std::pair<std::string, std::string>> result;
+    for (const auto &item : Utilities::split_string_list(by_plugins, ';'))
+      {
+        const auto colon = item.find(':');
+        check_user(colon != std::string::npos, where + "expected `name: plug-in`, got '" + item + "'.");
+        const std::string plugin = Utilities::trim(item.substr(colon + 1));
+        check_user(plugins.count(plugin) > 0,
+                   where + "there is no boundary condition named '" + plugin + "'; " +
+                     (known.empty() ? "none is known. Is its library under 'Additional shared libraries'?"
+                                    : "known are: " + known + "."));
+        result.emplace_back(Utilities::trim(item.substr(0, colon)), plugin);
+      }
+    return result;
   }
 
 
@@ -120,11 +186,23 @@ namespace alluvium::fluid
               {kind, name, parse_function(where + ": boundary '" + name + "'", text, n_components), text});
         }
 
+    for (const auto &[name, plugin_name] : plugins_by_boundary())
+      {
+        const auto &plugin = plugins.at(plugin_name);
+        plugin->initialize(constants);
+        const bool is_pressure = plugin->gives() == BoundaryPlugin::Gives::pressure;
+        Condition  condition{is_pressure ? Kind::pressure : Kind::velocity, name, nullptr, plugin_name};
+        condition.value     = std::make_shared<PluginFunction>(plugin, is_pressure ? 1u : 0u + dim);
+        condition.of_plugin = true;
+        add("Plug-ins", name, condition);
+      }
+
     for (const auto &name : Utilities::split_string_list(hydrostatic))
       {
         const auto it = ids.find(name);
         check_user(it != ids.end() && conditions.count(it->second) && conditions.at(it->second).kind == Kind::pressure,
-                   "Boundary conditions/Add hydrostatic pressure: '" + name + "' is no boundary under 'Pressure'.");
+                   "Boundary conditions/Add hydrostatic pressure: '" + name +
+                     "' is no boundary with a given pressure.");
         conditions.at(it->second).add_hydrostatic = true;
       }
 
@@ -133,7 +211,8 @@ namespace alluvium::fluid
       {
         check_user(conditions.count(id) == 1,
                    "Boundary conditions: boundary '" + name +
-                     "' has none. Name it under 'No-slip walls', 'Slip walls', 'Symmetric', 'Pressure' or 'Velocity'.");
+                     "' has none. Name it under 'No-slip walls', 'Slip walls', 'Symmetric', 'Pressure', 'Velocity' or "
+                     "'Plug-ins'.");
         pressure_is_fixed = pressure_is_fixed || conditions.at(id).kind == Kind::pressure;
       }
     check_user(
@@ -163,9 +242,12 @@ namespace alluvium::fluid
     if (!std::isfinite(value))
       {
         std::ostringstream text;
-        text << "Boundary conditions/" << (condition.kind == Kind::pressure ? "Pressure" : "Velocity") << ": boundary '"
-             << condition.name << "': '" << condition.text << "' is " << value << " at x = " << point[0]
-             << ", y = " << point[1] << ", t = " << time << "; expected a finite number.";
+        text << "Boundary conditions/"
+             << (condition.of_plugin                ? "Plug-ins"
+                 : condition.kind == Kind::pressure ? "Pressure"
+                                                    : "Velocity")
+             << ": boundary '" << condition.name << "': '" << condition.text << "' is " << value
+             << " at x = " << point[0] << ", y = " << point[1] << ", t = " << time << "; expected a finite number.";
         throw UserError(text.str());
       }
     if (condition.add_hydrostatic)
@@ -179,7 +261,7 @@ namespace alluvium::fluid
   {
     return std::any_of(conditions.begin(), conditions.end(), [](const auto &entry) {
       const Condition &c = entry.second;
-      return c.kind == Kind::velocity && (c.text.empty() || mentions(c.text, "t"));
+      return c.kind == Kind::velocity && c.may_depend_on("t");
     });
   }
 

@@ -1,5 +1,4 @@
 #include <alluvium/run/check_boundaries.h>
-#include <alluvium/utilities/expression.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/mpi.h>
@@ -49,7 +48,7 @@ namespace alluvium::run
       for (const auto &[id, flux] : fluxes)
         {
           const auto &c = m.boundary_conditions.all().at(id);
-          if (flux != 0. || !(mentions(c.text, "x") || mentions(c.text, "y")) || mentions(c.text, "t"))
+          if (flux != 0. || !(c.may_depend_on("x") || c.may_depend_on("y")) || c.may_depend_on("t"))
             continue;
           double largest = 0.;
           for (const auto &face : m.space.inflow_faces())

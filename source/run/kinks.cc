@@ -1,6 +1,5 @@
 #include <alluvium/run/kinks.h>
 #include <alluvium/run/model.h>
-#include <alluvium/utilities/expression.h>
 
 #include <algorithm>
 #include <array>
@@ -100,11 +99,11 @@ namespace alluvium::run
     };
     if (m.has_fluid)
       {
-        // formulas are defined everywhere: some points of the box stand for the boundary
+        // formulas are defined everywhere, and plug-ins should be: some points of the box stand for the boundary
         const auto                     &lower = m.domain.lower(), &upper = m.domain.upper();
         constexpr std::array<double, 3> shares = {{0.01, 0.5, 0.97}};
         for (const auto &[id, condition] : m.boundary_conditions.all())
-          if (condition.value && mentions(condition.text, "t"))
+          if (condition.value && condition.may_depend_on("t"))
             for (unsigned int c = 0; c < condition.value->n_components; ++c)
               for (const double x : shares)
                 for (const double y : shares)

@@ -5,6 +5,7 @@
 #include <alluvium/utilities/log.h>
 #include <alluvium/utilities/signals.h>
 #include <alluvium/utilities/user_error.h>
+#include <alluvium/utilities/version.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_handler.h>
@@ -71,8 +72,8 @@ namespace alluvium::run
   {
     const std::time_t  now = std::time(nullptr);
     std::ostringstream text;
-    text << "--- alluvium " << ALLUVIUM_VERSION << ", " << std::put_time(std::localtime(&now), "%Y-%m-%d %H:%M:%S")
-         << ", " << Utilities::MPI::n_mpi_processes(model.communicator) << " rank(s), ";
+    text << "--- alluvium " << version() << ", " << std::put_time(std::localtime(&now), "%Y-%m-%d %H:%M:%S") << ", "
+         << Utilities::MPI::n_mpi_processes(model.communicator) << " rank(s), ";
     if (is_restart)
       text << "continued from t = " << model.time << " s";
     else

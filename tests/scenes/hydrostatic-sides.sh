@@ -31,5 +31,5 @@ alluvium 1 --check layer.prm || fail 'the check failed'
 for side in left right; do
   grep -q "the pressure given on '$side' is the same at all its levels" error-output || fail "no hint for $side"
 done
-must_fail "Add hydrostatic pressure: 'top' is no boundary under 'Pressure'" 1 layer.prm \
+must_fail "Add hydrostatic pressure: 'top' is no boundary with a given pressure" 1 layer.prm \
   --set 'Boundary conditions/Add hydrostatic pressure=top'

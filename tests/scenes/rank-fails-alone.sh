@@ -2,7 +2,8 @@
 # One of two ranks has an error that the other does not know of and waits for it: the run ends all the same, says on which rank it was,
 # and leaves its summary and a checkpoint to go on from.
 . "$SCENES/functions"
-scene_from bed <<'END'
+scene_from bed <<END
+set Additional shared libraries = $TEST_PLUGINS
 subsection Time
   set End time = 0.2
 end
@@ -10,7 +11,6 @@ subsection Output
   set Interval of checkpoints = 0.002
 end
 END
-ALLUVIUM=$ALLUVIUM_WITH_PLUGIN
 for rank in 0 1; do
   rm -rf output
   timeout 100 mpirun -np 2 "$ALLUVIUM" bed.prm --set 'Coupling/Drag law=linear' --set "Coupling/Drag law: linear/Failing rank=$rank" \

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <alluvium/fluid/boundary_plugin.h>
+
 #include <deal.II/base/function.h>
 #include <deal.II/base/types.h>
 
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace dealii
 {
@@ -16,7 +20,7 @@ namespace alluvium::fluid
 {
   /**
    * What happens on each named part of the boundary: wall without slip, wall with slip (= symmetry), given
-   * pressure, or given velocity; the latter two as functions of x and t.
+   * pressure, or given velocity; the latter two as functions of x and t, by formulas or BoundaryPlugins.
    */
   template <int dim>
   class BoundaryConditions
@@ -38,6 +42,10 @@ namespace alluvium::fluid
 
       std::string text            = "";    // of the value, as the user wrote it
       bool        add_hydrostatic = false; // is the pressure to be added to that of the fluid at rest?
+      bool        of_plugin       = false; // then `text` is its name
+
+      /** May the value depend on @p variable, x, y or t? A formula says so, others do not. */
+      bool may_depend_on(const std::string &variable) const;
     };
 
     void add_parameters(dealii::ParameterHandler &prm);
@@ -88,7 +96,13 @@ namespace alluvium::fluid
     bool total_pressure_on_inflow() const { return pressure_on_inflow == "total"; }
 
   private:
-    std::string no_slip, slip, symmetric, pressure, velocity, hydrostatic;
+    /** Where a plug-in gives the value: its name by the boundary's. Throws UserError. */
+    std::vector<std::pair<std::string, std::string>> plugins_by_boundary() const;
+
+    std::string no_slip, slip, symmetric, pressure, velocity, hydrostatic, by_plugins;
+
+    std::map<std::string, std::shared_ptr<BoundaryPlugin>> plugins; // all that are registered
+
     std::string given_velocity     = "superficial";
     std::string pressure_on_inflow = "static";
     bool        pin_pressure       = false;

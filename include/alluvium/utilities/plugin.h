@@ -14,12 +14,26 @@
 
 namespace alluvium
 {
+  /** How many plug-ins have been registered: by this a library that was loaded shows that it has some. */
+  [[gnu::visibility("default")]] inline unsigned int &n_registered_plugins()
+  {
+    static unsigned int n = 0;
+    return n;
+  }
+
+  /** Names that were registered more than once for a kind. Said later: before main() there is nobody to say it to. */
+  [[gnu::visibility("default")]] inline std::vector<std::string> &names_taken()
+  {
+    static std::vector<std::string> names;
+    return names;
+  }
+
   /**
    * All known plug-ins of one kind, by the name that the parameter file uses. An Interface has a virtual destructor and
    * `void add_parameters(dealii::ParameterHandler &)`, which declares its parameters and binds them to its members.
    */
   template <class Interface>
-  class Registry
+  class [[gnu::visibility("default")]] Registry // one for the program and all libraries, whatever these hide
   {
   public:
     struct Entry
@@ -38,16 +52,11 @@ namespace alluvium
     add(const std::string &name, const std::string &prose, std::function<std::unique_ptr<Interface>()> create)
     {
       const bool is_new = entries().emplace(name, Entry{prose, std::move(create)}).second;
-      if (!is_new)
-        taken().push_back(name);
+      if (is_new)
+        ++n_registered_plugins();
+      else
+        names_taken().push_back(name);
       return is_new;
-    }
-
-    /** Names that were registered more than once. Said by PluginChoice: before main() there is nobody to say it to. */
-    static std::vector<std::string> &taken()
-    {
-      static std::vector<std::string> names;
-      return names;
     }
   };
 
@@ -158,9 +167,9 @@ namespace alluvium
     void create_all(const std::string &choice)
     {
       selected = choice;
-      check_user(Registry<Interface>::taken().empty(),
+      check_user(names_taken().empty(),
                  "Two plug-ins of a kind have the same name, '" +
-                   (Registry<Interface>::taken().empty() ? std::string() : Registry<Interface>::taken().front()) +
+                   (names_taken().empty() ? std::string() : names_taken().front()) +
                    "'. One of the program's own cannot be replaced: name yours otherwise.");
       for (const auto &[key, entry] : Registry<Interface>::entries())
         instances.emplace(key, entry.create());

@@ -1,0 +1,10 @@
+# Run at every build: write the commit of SOURCE into the header OUTPUT, if it has changed. GIVEN: what to say where there is no git.
+set(_commit "${GIVEN}")
+if(EXISTS ${SOURCE}/.git)
+  execute_process(COMMAND git -C ${SOURCE} describe --always --dirty --abbrev=10 --exclude=*
+                  OUTPUT_VARIABLE _found OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE _result)
+  if(_result EQUAL 0)
+    set(_commit "${_found}")
+  endif()
+endif()
+file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "#define ALLUVIUM_COMMIT \"${_commit}\"\n") # leaves a file alone that has this content
