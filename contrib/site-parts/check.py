@@ -9,13 +9,19 @@ import urllib.parse
 
 WORDS = "te,nd,fo,inout,strat,hist,ans,daa,som,ot,uint,sinc,fro,ser"  # names that codespell takes for mistakes
 
+# that pages here have; another one is a `<` in the text that a browser takes for a tag
+TAGS = set("html head meta title link script style body header nav a div span main h1 h2 h3 h4 h5 h6 p pre code b i em strong small ul ol li table thead tbody tr th td "
+           "img br hr blockquote input button sub sup".split())
+
 
 class Links(html.parser.HTMLParser):
     def __init__(self):
         super().__init__()
-        self.targets, self.names, self.loaded = [], set(), []
+        self.targets, self.names, self.loaded, self.unknown = [], set(), [], set()
 
     def handle_starttag(self, tag, attributes):
+        if tag not in TAGS:
+            self.unknown.add(tag)
         for key, value in attributes:
             if value and (key == "id" or (key == "name" and tag == "a")):
                 self.names.add(value)
@@ -26,7 +32,7 @@ class Links(html.parser.HTMLParser):
 
 
 def links(folder):
-    """Of every page: links between pages, their anchors, and that nothing is loaded from elsewhere. Doxygen's own pages: only that."""
+    """Of every page: unknown tags, links between pages, their anchors, and that nothing is loaded from elsewhere. Doxygen's own pages: only that."""
     found, parsed = [], {}
     for path, _, names in os.walk(folder):
         for name in names:
@@ -42,6 +48,8 @@ def links(folder):
                 found.append("%s loads %s from the network" % (shown, target))
         if shown.startswith(("reference/", "mathjax/")):
             continue
+        if name.endswith(".html"):
+            found += ["%s: <%s> is taken for a tag; code goes between `...`" % (shown, tag) for tag in sorted(page.unknown)]
         for target in sorted(set(page.targets)):
             if re.match(r"[a-z]+:", target):
                 continue

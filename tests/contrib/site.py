@@ -33,13 +33,13 @@ def read(*path):
 def checks_find_mistakes(folder):
     pages = {"good.html": '<a href="other.html#here">x</a><a href="https://a.org">y</a>', "other.html": '<p id="here"></p>',
              "lost.html": '<a href="nowhere.html">x</a>', "place.html": '<a href="other.html#there">x</a>',
-             "net.html": '<script src="https://cdn.org/x.js"></script>'}
+             "tag.html": "<p>the mean <phi> of it</p>", "net.html": '<script src="https://cdn.org/x.js"></script>'}
     for name, text in pages.items():
         with open(os.path.join(folder, name), "w") as file:
             file.write(text)
     found = check.links(folder)
-    assert len(found) == 3 and all(any(words in line for line in found) for words in
-                                   ("lost.html links to nowhere.html, which is not there", "place.html links to other.html#there, which has no such place",
+    assert len(found) == 4 and all(any(words in line for line in found) for words in
+                                   ("lost.html links to nowhere.html, which is not there", "tag.html: <phi> is taken for a tag", "place.html links to other.html#there, which has no such place",
                                     "net.html loads https://cdn.org/x.js from the network")), found
 
 
