@@ -21,6 +21,8 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/cmake/alluviumConfigVersion
 install(FILES ${CMAKE_BINARY_DIR}/cmake/alluviumConfig.cmake ${CMAKE_BINARY_DIR}/cmake/alluviumConfigVersion.cmake
         DESTINATION ${_package} COMPONENT development)
 
+# found by bash-completion under the program's name
+install(FILES contrib/completion/alluvium.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program RENAME alluvium)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program RENAME copyright)
 install(FILES README.md CHANGELOG.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc)
 install(DIRECTORY doc DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc
