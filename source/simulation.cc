@@ -227,7 +227,8 @@ namespace alluvium
     bool        mesh_has_changed = false;
     if (run::remove_leavers(m))
       guard.after_removal();
-    if (m.has_fluid && m.adaptivity.due(m.n_steps) && m.grains.n() > 0) // cell sizes are measured in grains
+    const bool has_sizes = m.grains.n() > 0 || m.grain_setup.unit_length() > 0.; // cells are measured in grains
+    if (m.has_fluid && m.adaptivity.due(m.n_steps) && has_sizes)
       {
         guard.before_mesh_change();
         mesh_has_changed = run::adapt_mesh(m);

@@ -294,6 +294,17 @@ namespace alluvium::contacts
                                implementation->acting_cohesion());
   }
 
+  double ContactStepper::spring_energy(const grains::GrainArrays &grains) const
+  {
+    if (implementation->model != "soft-sphere")
+      return 0.;
+    const ContactGeometry &geometry = implementation->work.geometry;
+    ContactNeighbours      now; // the pairs in use may be older than the last change
+    now.set_archive(implementation->work.archive());
+    now.search(grains, geometry, 0.);
+    return implementation->soft_spheres.spring_energy(grains, geometry, now.pairs);
+  }
+
   ContactMemory ContactStepper::memory() const
   {
     const bool    has_history = implementation->model == "soft-sphere" || implementation->acting_cohesion() != nullptr;

@@ -146,6 +146,27 @@ namespace alluvium::contacts
   }
 
 
+  double SoftSpheres::spring_energy(const grains::GrainArrays &grains,
+                                    const ContactGeometry     &geometry,
+                                    const ContactCandidates   &pairs) const
+  {
+    double     energy = 0.;
+    const auto add    = [&](const double gap, const double slip) {
+      if (gap < 0.)
+        energy += 0.5 * stiffness * (gap * gap + tangential_ratio * slip * slip);
+    };
+    for (const ContactPair &p : pairs.discs)
+      if (!std::isinf(grains.mass[p.i]) || !std::isinf(grains.mass[p.j]))
+        add(touch(grains, geometry.periodicity, p.i, p.j).gap, p.rt);
+    for (const ContactPair &p : pairs.walls)
+      if (ContactPoint point;
+          !std::isinf(grains.mass[p.i]) &&
+          geometry.walls.touch(p.j, grains.position[0][p.i], grains.position[1][p.i], grains.radius[p.i], point))
+        add(point.gap, p.rt);
+    return energy;
+  }
+
+
   ContactReport SoftSpheres::advance(grains::GrainArrays       &grains,
                                      const grains::GrainLoads  &loads,
                                      const double               dt,
@@ -248,6 +269,7 @@ namespace alluvium::contacts
         count(point.gap);
     if (report.n_contacts > 0)
       report.mean_penetration /= report.n_contacts;
+    report.spring_energy = spring_energy(grains, geometry, neighbours.pairs);
     return report;
   }
 } // namespace alluvium::contacts

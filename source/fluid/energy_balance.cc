@@ -1,10 +1,12 @@
 #include <alluvium/fluid/cell_mesh_terms.h>
+#include <alluvium/fluid/cell_order.h>
 #include <alluvium/fluid/cell_piece_terms.h>
 #include <alluvium/fluid/energy_balance.h>
 #include <alluvium/fluid/open_boundary_terms.h>
 #include <alluvium/fluid/piece_gradients.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/tensor.h>
 
 #include <algorithm>
@@ -153,27 +155,72 @@ namespace alluvium::fluid
       sum.boundaries += taken;
     }
 
-    /** Kinetic energy that goes out through a face [W/m]. */
+    /** Kinetic energy that goes out through the face from node @p a to @p b [W/m], a straight one. */
     template <int dim, int n>
-    double carried_out(const CellState<dim, n>                               &state,
-                       const LocalVector<dim, n>                             &x,
-                       const std::vector<std::array<double, max_nodes<dim>>> &phi,
-                       const std::vector<Tensor<1, dim>>                     &normal_jxw)
+    double carried_out(const CellState<dim, n>   &state,
+                       const LocalVector<dim, n> &x,
+                       const unsigned int         a,
+                       const unsigned int         b)
     {
-      double sum = 0.;
-      if (!state.problem.discretisation.convection)
-        return sum;
-      for (unsigned int q = 0; q < phi.size(); ++q)
+      const Point<dim> &from = state.cell->vertex[a], &to = state.cell->vertex[b];
+      Tensor<1, dim>    normal, inwards; // outwards, as long as the face
+      normal[0] = to[1] - from[1];
+      normal[1] = from[0] - to[0];
+      for (unsigned int v = 0; v < n; ++v)
+        inwards += state.cell->vertex[v] - from;
+      if (normal * inwards > 0.)
+        normal *= -1.;
+      static const QGauss<1> quadrature(3); // a product of four linear functions
+      double                 sum = 0.;
+      for (unsigned int q = 0; q < quadrature.size(); ++q)
         {
+          std::array<double, n> phi{};
+          phi[b] = quadrature.point(q)[0];
+          phi[a] = 1. - phi[b];
           Tensor<1, dim> u, old;
-          for (unsigned int v = 0; v < n; ++v)
+          for (const unsigned int v : {a, b})
             for (unsigned int d = 0; d < dim; ++d)
               {
-                u[d] += phi[q][v] * x[v * (dim + 1) + d];
-                old[d] += phi[q][v] * state.u_old[v][d];
+                u[d] += phi[v] * x[v * (dim + 1) + d];
+                old[d] += phi[v] * state.u_old[v][d];
               }
-          sum += 0.5 * state.problem.fluid.density * state.value(state.eps, phi[q]) * (old * normal_jxw[q]) *
-                 u.norm_square();
+          sum += quadrature.weight(q) * 0.5 * state.problem.fluid.density * state.value(state.eps, phi) *
+                 (old * normal) * u.norm_square();
+        }
+      return sum;
+    }
+
+    /**
+     * Kinetic energy that goes out through the whole boundary [W/m]: also through walls beside an opening, as the
+     * velocity of its last node falls to zero along the face that ends there.
+     */
+    template <int dim, int n>
+    double carried_out(CellState<dim, n> &state, const BlockVector &solution)
+    {
+      const FluidSpace<dim> &space = state.space;
+      double                 sum   = 0.;
+      unsigned int           index = 0;
+      for (const auto &cell : ordered_cells(space.dof_handler()))
+        {
+          if (!cell->is_locally_owned())
+            continue;
+          const unsigned int i = index++;
+          if (!cell->at_boundary())
+            continue;
+          state.reinit(i);
+          const auto x = state.values(solution);
+          for (const unsigned int f : cell->face_indices())
+            {
+              const auto face = cell->face(f);
+              if (!face->at_boundary() || space.periodic_box().length[face->boundary_id() / 2 % dim] > 0.)
+                continue;
+              std::array<unsigned int, 2> ends{};
+              for (unsigned int e = 0; e < 2; ++e)
+                for (unsigned int v = 0; v < n; ++v)
+                  if (cell->vertex_index(v) == face->vertex_index(e))
+                    ends[e] = v;
+              sum += carried_out<dim, n>(state, x, ends[0], ends[1]);
+            }
         }
       return sum;
     }
@@ -194,19 +241,10 @@ namespace alluvium::fluid
       for (const auto &face : space.open_faces())
         {
           state.reinit(face.cell);
-          const auto                  x = state.values(solution);
-          std::vector<Tensor<1, dim>> normal_jxw;
-          for (unsigned int q = 0; q < face.jxw.size(); ++q)
-            normal_jxw.push_back(face.normal[q] * face.jxw[q]);
-          add_open(state, face, backflow.at(face.boundary), x, sum);
-          sum.boundaries -= carried_out(state, x, face.phi, normal_jxw);
+          add_open(state, face, backflow.at(face.boundary), state.values(solution), sum);
         }
-      for (const auto &face : space.inflow_faces())
-        if (face.owned)
-          {
-            state.reinit(face.cell);
-            sum.boundaries -= carried_out(state, state.values(solution), face.phi, face.normal_jxw);
-          }
+      if (problem.discretisation.convection)
+        sum.boundaries -= carried_out(state, solution);
     }
   } // namespace
 

@@ -31,17 +31,26 @@ namespace alluvium::grains
       return std::sqrt(square);
     }
 
-    /** The level beyond which @p area is exceeded, going through (level, area) pairs in order; false if there is not as
-     * much. */
-    bool level_with(const std::vector<std::pair<double, double>> &levels, const double area, double &level)
+    /** The first level at which there is @p area within @p reach before it, going through (level, area) pairs in order;
+     * false if there is none. */
+    bool level_with(const std::vector<std::pair<double, double>> &levels,
+                    const double                                  area,
+                    const double                                  reach,
+                    double                                       &level)
     {
-      double sum = 0.;
+      double sum   = 0.;
+      auto   first = levels.begin();
       for (const auto &[y, a] : levels)
-        if ((sum += a) >= area * (1. - 1e-9)) // equal grains may have just as much
-          {
-            level = y;
-            return true;
-          }
+        {
+          sum += a;
+          for (; first->first < y - reach; ++first)
+            sum -= first->second;
+          if (sum >= area * (1. - 1e-9)) // equal grains may have just as much
+            {
+              level = y;
+              return true;
+            }
+        }
       return false;
     }
   } // namespace
@@ -151,13 +160,14 @@ namespace alluvium::grains
             columns[c].tops.emplace_back(-grains.position[1][i] - r, area); // negative: from the top down
           }
       }
-    const double quarter_layer = 0.25 * d * width;
+    const double quarter_layer = 0.25 * d * width, reach = 3. * d; // a slope of 60 degrees has it within that
     for (auto &[c, levels] : columns)
       {
         std::sort(levels.bottoms.begin(), levels.bottoms.end());
         std::sort(levels.tops.begin(), levels.tops.end());
         double bottom, top;
-        if (level_with(levels.bottoms, quarter_layer, bottom) && level_with(levels.tops, quarter_layer, top))
+        if (level_with(levels.bottoms, quarter_layer, reach, bottom) &&
+            level_with(levels.tops, quarter_layer, reach, top))
           result.columns.push_back({left + c * width, left + (c + 1) * width, bottom, std::max(bottom, -top)});
       }
     return result;

@@ -20,8 +20,12 @@ namespace alluvium::observers
 
       void add_columns(const Snapshot &s, output::Statistics &statistics) override
       {
+        std::vector<std::string> names;
         for (const auto &[id, name] : open_boundaries(s))
-          statistics.add_column("flux_" + name + "_m2_per_s");
+          names.push_back(name);
+        in_columns = output::names_in_columns(names);
+        for (const auto &name : names)
+          statistics.add_column("flux_" + in_columns.at(name) + "_m2_per_s");
         if (!open_boundaries(s).empty())
           statistics.add_column("flux_imbalance");
         for (unsigned int d = 0; d < 2; ++d)
@@ -40,7 +44,7 @@ namespace alluvium::observers
             last[name]        = flux;
             sum += flux;
             size = std::max(size, std::abs(flux));
-            statistics.set("flux_" + name + "_m2_per_s", flux);
+            statistics.set("flux_" + in_columns.at(name) + "_m2_per_s", flux);
           }
         if (!open_boundaries(s).empty())
           statistics.set("flux_imbalance", size > 0. ? sum / size : 0.);
@@ -91,7 +95,8 @@ namespace alluvium::observers
         return result;
       }
 
-      std::map<std::string, double> last;
+      std::map<std::string, std::string> in_columns; // of boundaries
+      std::map<std::string, double>      last;
     };
   } // namespace
 

@@ -1,3 +1,4 @@
+#include <alluvium/observers/lasting_event.h>
 #include <alluvium/observers/observer.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -16,7 +17,8 @@ namespace alluvium::observers
      * Who carries the grains: floor, walls, fluid. Where the flow crosses a bed that reaches from side to side, it is
      * fluidised by force balance at the head at which the fluid carries the whole reduced weight, (s phi_m - phi_b) L
      * whatever the mesh and the drag law (L the height of the bed, phi_m the packing that has mass, phi_b the packing
-     * that the fluid sees). Elsewhere there is no such onset.
+     * that the fluid sees). Elsewhere there is no such onset. It counts if the fluid carries at least 0.98 of the
+     * weight in the mean over sqrt(d/g) from then on, and the floor less than a tenth.
      */
     class Support : public Observer
     {
@@ -86,16 +88,20 @@ namespace alluvium::observers
               s.step == 0 ? 0.
                           : -(report.force_on_grains[0] * s.gravity[0] + report.force_on_grains[1] * s.gravity[1]) /
                               (g_norm * weight);
-            if (std::isfinite(exact) && !std::isfinite(onset_head) && now >= 1. && s.step > 0)
+            const double hold = std::sqrt(grains::mean_diameter(g) / g_norm);
+            if (std::isfinite(exact) && onset.is_awaited() && now >= 1. && s.step > 0)
               {
-                const double part = now > fluid_share ? (1. - fluid_share) / (now - fluid_share) : 1.;
-                onset_head        = last_head + part * (s.fluid->head - last_head);
-                onset_time        = s.time - (1. - part) * s.dt;
+                double part = now > fluid_share ? (1. - fluid_share) / (now - fluid_share) : 1.;
+                part        = std::max(0., part);
+                onset.begin(last_head + part * (s.fluid->head - last_head), s.time - (1. - part) * s.dt);
               }
             // the floor lets go: its force, nearly linear in the head, extrapolated to zero from 2 % of the weight
-            if (std::isfinite(exact) && knows_floor && !std::isfinite(floor_head) && s.contacts && s.step > 1 &&
+            if (std::isfinite(exact) && knows_floor && floor_free.is_awaited() && s.contacts && s.step > 1 &&
                 floor_share < 0.02 && last_floor > floor_share)
-              floor_head = s.fluid->head + floor_share * (s.fluid->head - last_head) / (last_floor - floor_share);
+              floor_free.begin(s.fluid->head + floor_share * (s.fluid->head - last_head) / (last_floor - floor_share),
+                               s.time);
+            onset.follow(now, s.dt, 0.98, hold);
+            floor_free.follow(1. - floor_share, s.dt, 0.9, hold);
             fluid_share = now;
             last_head   = s.fluid->head;
           }
@@ -121,38 +127,33 @@ namespace alluvium::observers
         summary.set("support/final_wall_force_over_weight", wall_share);
         if (std::isfinite(exact))
           summary.set("onset by force balance/exact_head_m", exact);
-        if (std::isfinite(onset_head))
+        if (onset.has_happened())
           {
-            summary.set("onset by force balance/differential_head_m", onset_head);
-            summary.set("onset by force balance/time_s", onset_time);
-            summary.set("onset by force balance/over_exact", onset_head / exact);
+            summary.set("onset by force balance/differential_head_m", onset.head());
+            summary.set("onset by force balance/time_s", onset.time());
+            summary.set("onset by force balance/over_exact", onset.head() / exact);
           }
-        if (std::isfinite(floor_head))
-          summary.set("onset by force balance/floor_free_differential_head_m", floor_head);
+        if (floor_free.has_happened())
+          summary.set("onset by force balance/floor_free_differential_head_m", floor_free.head());
       }
 
       void save(nlohmann::ordered_json &state) const override
       {
-        state = {
-          exact, onset_head, onset_time, floor_head, fluid_share, last_head, last_floor, floor_share, wall_share};
+        state = {{"numbers", {exact, fluid_share, last_head, last_floor, floor_share, wall_share}},
+                 {"onset", onset.state()},
+                 {"floor free", floor_free.state()}};
       }
 
       void load(const nlohmann::ordered_json &state) override
       {
         unsigned int i = 0;
-        for (double *value : {&exact,
-                              &onset_head,
-                              &onset_time,
-                              &floor_head,
-                              &fluid_share,
-                              &last_head,
-                              &last_floor,
-                              &floor_share,
-                              &wall_share})
+        for (double *value : {&exact, &fluid_share, &last_head, &last_floor, &floor_share, &wall_share})
           {
-            *value = state[i].is_null() ? std::numeric_limits<double>::quiet_NaN() : state[i].get<double>();
-            ++i;
+            const auto &number = state.at("numbers").at(i++);
+            *value             = number.is_null() ? nan : number.get<double>();
           }
+        onset.set_state(state.at("onset").get<std::array<double, 7>>());
+        floor_free.set_state(state.at("floor free").get<std::array<double, 7>>());
       }
 
     private:
@@ -167,7 +168,9 @@ namespace alluvium::observers
       std::string floor       = default_floor;
       bool        knows_floor = true;
       double      floor_share = 0., wall_share = 0., fluid_share = 0., last_head = 0., last_floor = 1.;
-      double      exact = nan, onset_head = nan, onset_time = nan, floor_head = nan;
+      double      exact = nan;
+
+      LastingEvent onset, floor_free;
     };
   } // namespace
 

@@ -1,6 +1,7 @@
 #include <alluvium/observers/observer.h>
 
 #include <algorithm>
+#include <map>
 
 namespace alluvium::observers
 {
@@ -21,6 +22,7 @@ namespace alluvium::observers
         for (const auto &wall : s.walls)
           if (grains::ever_acts(wall) && std::find(names.begin(), names.end(), wall.name) == names.end())
             names.push_back(wall.name);
+        in_columns = output::names_in_columns(names, " ");
         for (const auto &name : names)
           for (const char *what : {"_x_m", "_y_m", "_force_x_N_per_m", "_force_y_N_per_m", "_is_there"})
             statistics.add_column(column(name, what));
@@ -53,13 +55,12 @@ namespace alluvium::observers
       }
 
     private:
-      std::vector<std::string> names;
+      std::vector<std::string>           names;
+      std::map<std::string, std::string> in_columns;
 
-      static std::string column(std::string name, const std::string &what)
+      std::string column(const std::string &name, const std::string &what) const
       {
-        std::replace_if(
-          name.begin(), name.end(), [](const char c) { return c == ' ' || c == ','; }, '_');
-        return "wall_" + name + what;
+        return "wall_" + in_columns.at(name) + what;
       }
     };
   } // namespace

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <set>
 #include <sstream>
 
 namespace alluvium::output
@@ -142,5 +143,27 @@ namespace alluvium::output
     char text[50];
     std::snprintf(text, sizeof(text), "%.*g", int(precision), value == 0. ? 0. : value); // no -0
     return text;
+  }
+
+  std::map<std::string, std::string> names_in_columns(const std::vector<std::string> &names,
+                                                      const std::string              &unwanted)
+  {
+    std::map<std::string, std::string> result;
+    std::set<std::string>              taken;
+    for (const std::string &name : names)
+      {
+        if (result.count(name) > 0)
+          continue;
+        std::string word = name;
+        for (char &c : word)
+          if ((",\"\n" + unwanted).find(c) != std::string::npos)
+            c = '_';
+        std::string free = word;
+        for (unsigned int n = 2; taken.count(free) > 0; ++n)
+          free = word + "_" + std::to_string(n);
+        taken.insert(free);
+        result[name] = free;
+      }
+    return result;
   }
 } // namespace alluvium::output

@@ -184,7 +184,8 @@ namespace alluvium::run
     if (change_walls(changes))
       {
         double time = 0.;
-        read([&] { time = state.at("time"); });
+        if (const auto fixed = before.find("Grains/Fixed"); fixed == before.end() || fixed->second != "true")
+          read([&] { time = state.at("time"); });
         fit_to_walls(archive, walls_of(before, m.domain), m.contacts.walls(), time, m.time_step);
       }
     m.contacts.set_archive(archive);

@@ -52,7 +52,7 @@ namespace alluvium::run
    */
   double DivergenceMonitor::noise(const Model &m) const
   {
-    const double d    = grains::mean_diameter(m.grains);
+    const double d    = m.grains.n() > 0 ? grains::mean_diameter(m.grains) : m.initial_diameter;
     const double unit = m.gravity_size() > 0. ? m.gravity_size() * d : std::pow(0.01 * d / longest_step, 2);
     double       mass = 0.;
     for (const double x : m.grains.mass)
@@ -65,16 +65,16 @@ namespace alluvium::run
 
 
   /**
-   * The kinetic energy, or what is left of a larger one before it [J/m]. A grain that bounces has next to none at its
-   * highest point, but the error of the time of its impact is a part of what it had there. The memory fades over some
-   * free flights, 2 v / g, of the fastest grain; without gravity nothing stores it.
+   * The kinetic energy with that of springs, or what is left of a larger one before it [J/m]. A grain that bounces has
+   * next to none at its highest point, but the error of the time of its impact is a part of what it had there. The
+   * memory fades over some free flights, 2 v / g, of the fastest grain; without gravity nothing stores it.
    */
   double DivergenceMonitor::kinetic_of_late(const Model &m, const StepMeasures &s)
   {
     of_late = flight > 0. ? of_late * std::exp(-m.time_step / (4. * flight)) : 0.;
-    if (s.energy.kinetic >= of_late)
+    if (s.energy.kinetic + s.energy.springs >= of_late)
       {
-        of_late = s.energy.kinetic;
+        of_late = s.energy.kinetic + s.energy.springs;
         flight  = m.gravity_size() > 0. ? 2. * s.grain_velocity / m.gravity_size() : 0.;
       }
     return of_late;

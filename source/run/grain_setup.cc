@@ -174,7 +174,11 @@ namespace alluvium::run
 
     grains::GrainArrays grains;
     const std::size_t   n = numbers.size() / n_numbers;
-    check_user(n > 0, "Grains: the deposit '" + deposit.name() + "' made no grains.");
+    check_user(n > 0 || unit_length() > 0.,
+               "Grains: the deposit '" + deposit.name() +
+                 "' made no grains. If there shall be none: Grains/Deposit = none.");
+    if (n == 0)
+      return grains;
     grains.resize(n);
     std::vector<double> densities(n);
     for (std::size_t i = 0; i < n; ++i)

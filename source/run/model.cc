@@ -69,8 +69,10 @@ namespace alluvium::run
       grains, {{{domain.lower()[0], domain.lower()[1]}}, {{domain.upper()[0], domain.upper()[1]}}}, upright());
     context.periodic         = {{length[0] > 0., length[1] > 0.}};
     context.initial_diameter = initial_diameter;
-    context.time             = time;
-    context.gravity          = gravity_size();
+    if (grain_setup.unit_length() > 0.)
+      context.grain_diameter = initial_diameter;
+    context.time    = time;
+    context.gravity = gravity_size();
     return context;
   }
 } // namespace alluvium::run

@@ -34,7 +34,7 @@ namespace alluvium::run
     prm.enter_subsection("Output");
     prm.add_parameter("Interval of pictures",
                       picture_interval,
-                      "Time between two outputs of the fields for ParaView [s]; 0: none.",
+                      "Time between two outputs of the fields for ParaView [s], one more at the end; 0: none.",
                       Patterns::Double(0.));
     prm.add_parameter("Interval of statistics",
                       row_interval,
@@ -276,7 +276,8 @@ namespace alluvium::run
     observe();
     if (is_due(model.time, model.time_step, row_interval))
       write_row();
-    if (picture_interval > 0. && is_due(model.time, model.time_step, picture_interval))
+    has_pictures = picture_interval > 0. && is_due(model.time, model.time_step, picture_interval);
+    if (has_pictures)
       write_pictures();
   }
 
@@ -323,6 +324,9 @@ namespace alluvium::run
 
   void Output::conclude(const Ending &ending)
   {
+    // not in the checkpoint: a run that goes on is as one that has never ended here
+    if (picture_interval > 0. && !has_pictures && ending.how == "finished")
+      write_pictures();
     model.timers.add(model.solver.timers);
     const auto phases = model.timers.slowest(model.communicator);
     fill_summary(ending, phases);

@@ -1,3 +1,4 @@
+#include <alluvium/contacts/search/contact_search.h>
 #include <alluvium/coupling/homogeneous_bed.h>
 #include <alluvium/run/model.h>
 #include <alluvium/run/scene_numbers.h>
@@ -35,6 +36,21 @@ namespace alluvium::run
       return largest;
     }
 
+    /** Whether most of the grains touch neither another one nor a wall, but for a hundredth of their diameter. */
+    bool most_touch_nothing(const Model &m)
+    {
+      contacts::ContactGeometry geometry;
+      geometry.walls.set(m.contacts.walls());
+      geometry.periodicity = m.domain.periodicity();
+      std::vector<bool> touches(m.grains.n(), false);
+      const auto        found = contacts::find_candidates(m.grains, geometry, 0.01 * grains::mean_diameter(m.grains));
+      for (const auto &p : found.discs)
+        touches[p.i] = touches[p.j] = true;
+      for (const auto &p : found.walls)
+        touches[p.i] = true;
+      return 2 * std::count(touches.begin(), touches.end(), true) < long(m.grains.n());
+    }
+
     void find_velocity(const Model &m, SceneNumbers &s)
     {
       const auto take = [&](const double velocity, const std::string &of) {
@@ -46,7 +62,9 @@ namespace alluvium::run
       };
       take(s.terminal_velocity, "at which a grain sinks alone");
       if (s.eps < 1.)
-        take(s.fluidisation_velocity / s.eps, "between the grains of a bed that is just fluidised");
+        take(s.fluidisation_velocity / s.eps,
+             s.is_suspension ? "between the grains of a suspension that is held up"
+                             : "between the grains of a bed that is just fluidised");
       take(largest_given_velocity(m), "given on a boundary now");
       double smallest = std::numeric_limits<double>::max();
       for (const auto &cell : m.space.cells())
@@ -83,6 +101,7 @@ namespace alluvium::run
       s.radius_factor = g.fluid_radius[0] / g.radius[0];
     s.bed = grains::measure_bed(
       g, m.domain.lower()[1 - m.upright().vertical], m.domain.upper()[1 - m.upright().vertical], m.upright());
+    s.is_suspension = m.grains_move && g.n() > 0 && most_touch_nothing(m);
     if (m.has_fluid && g.n() > 0)
       {
         const auto  &fluid   = m.solver.properties;
@@ -115,7 +134,7 @@ namespace alluvium::run
           {
             s.density_ratio =
               mass / (fluid.density * (m.grain_setup.mass_follows_fluid_radius() ? volume : contact_volume));
-            if (s.bed.solid > 0. && s.density_ratio > 1.)
+            if (s.bed.solid > 0. && s.density_ratio > 1. && !s.is_suspension)
               {
                 // the bed's share of all grains, as far as these are of one kind
                 const double share  = s.bed.solid / contact_volume;

@@ -147,13 +147,16 @@ namespace alluvium::run
       for (std::size_t i = 0; i < texts.size(); ++i)
         line(i == 0 ? what : "", texts[i]);
     };
+    const std::string body = s.is_suspension ? "suspension" : "bed";
     line("grains",
-         std::to_string(m.grains.n()) + " discs, mean diameter " + in_digits(s.diameter) + " m, fluid radius " +
-           in_digits(s.radius_factor) + " of the contact radius");
+         m.grain_setup.unit_length() > 0.
+           ? "none; sizes in grain diameters are in units of " + in_digits(m.initial_diameter) + " m"
+           : std::to_string(m.grains.n()) + " discs, mean diameter " + in_digits(s.diameter) + " m, fluid radius " +
+               in_digits(s.radius_factor) + " of the contact radius");
     if (s.bed.solid > 0.)
       {
         const double inside = grains::inner_packing_fraction(grains::turned(m.grains, m.upright()));
-        line("bed",
+        line(body,
              (m.initial_bed.empty()
                 ? std::string()
                 : in_digits(m.initial_bed.bottom()) + " m to " + in_digits(m.initial_bed.top()) + " m, ") +
@@ -175,12 +178,12 @@ namespace alluvium::run
         line("drag law",
              m.coupling.drag_law_name() + " (void fraction " + in_digits(range.eps_min) + " to " +
                in_digits(range.eps_max) + ", Reynolds number to " + in_digits(range.re_max) + ")" +
-               (!s.has_drag ? "; no drag: the fluid reaches grains through its pressure only"
-                : s.eps < 1.
-                  ? "; bed of void fraction " + in_digits(s.eps) + ": permeability " + in_digits(s.permeability) +
-                      " m^2, fluidised at a superficial velocity of " + in_digits(s.fluidisation_velocity) + " m/s" +
-                      (range.contains(s.eps, range.re_min) ? "" : "; it lies outside the law's range")
-                  : ""));
+               (!s.has_drag  ? "; no drag: the fluid reaches grains through its pressure only"
+                : s.eps < 1. ? "; " + body + " of void fraction " + in_digits(s.eps) + ": permeability " +
+                                 in_digits(s.permeability) + " m^2, " + (s.is_suspension ? "held up" : "fluidised") +
+                                 " at a superficial velocity of " + in_digits(s.fluidisation_velocity) + " m/s" +
+                                 (range.contains(s.eps, range.re_min) ? "" : "; it lies outside the law's range")
+                             : ""));
         if (s.critical_gradient > 0.)
           line("heave",
                "critical gradient " + rounded(s.critical_gradient) +
@@ -202,9 +205,10 @@ namespace alluvium::run
                  "; Shields number 1 is a shear stress of " + rounded(s.shields_stress) + " Pa");
         line("time step",
              (control.automatic() ? control.description() + "; with " : "") + in_digits(m.time_step) + " s" +
-               (s.relaxation_time > 0. ? ": " + rounded(m.time_step / s.relaxation_time) + " tau_p (" +
-                                           rounded(s.relaxation_time) + " s" + (s.eps < 1. ? ", in the bed)" : ")")
-                                       : "") +
+               (s.relaxation_time > 0.
+                  ? ": " + rounded(m.time_step / s.relaxation_time) + " tau_p (" + rounded(s.relaxation_time) + " s" +
+                      (s.eps < 1. ? ", in the " + body + ")" : ")")
+                  : "") +
                (s.courant > 0.
                   ? "; Courant number " + rounded(s.courant) + " at " + rounded(s.velocity) + " m/s, " + s.velocity_of
                   : ""));

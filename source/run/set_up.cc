@@ -154,6 +154,8 @@ namespace alluvium::run
   void set_up(Model &m, const std::string &directory, Checkpoint *from)
   {
     m.parse_parameters();
+    check_user(m.has_fluid || !(m.grain_setup.unit_length() > 0.),
+               "Grains/Deposit = none and Fluid/Model = none: there is nothing to compute.");
     m.domain.initialize(m.communicator, directory);
     if (m.has_fluid)
       look_at_boundary_conditions(m);
@@ -173,7 +175,7 @@ namespace alluvium::run
       {
         m.clock.dt         = m.time_step;
         m.grains           = m.grain_setup.make(m.communicator, m.domain, walls, m.gravity, directory);
-        m.initial_diameter = grains::mean_diameter(m.grains);
+        m.initial_diameter = m.grains.n() > 0 ? grains::mean_diameter(m.grains) : m.grain_setup.unit_length();
         m.initial_bed      = grains::find_bed_faces(m.grains, lower[across], upper[across], m.upright());
         m.coarse_size      = m.domain.coarse_cell_size() > 0. || !m.has_fluid
                                ? m.domain.coarse_cell_size()

@@ -241,18 +241,21 @@ namespace alluvium::run
 
   void StepMeter::begin(const Model &m)
   {
-    double kinetic_now = 0., fastest = 0.;
+    StepEnergy now;
+    double     fastest = 0.;
     if (m.has_fluid)
-      kinetic_now = Utilities::MPI::sum(sum_fluid(m).kinetic, m.communicator);
-    remember(m, kinetic_now + grains_kinetic_energy(m.grains, fastest));
+      now.kinetic = Utilities::MPI::sum(sum_fluid(m).kinetic, m.communicator);
+    now.kinetic += grains_kinetic_energy(m.grains, fastest);
+    now.springs = m.grains_move ? m.contacts.spring_energy(m.grains) : 0.;
+    remember(m, now);
   }
 
 
-  void StepMeter::remember(const Model &m, const double kinetic_now)
+  void StepMeter::remember(const Model &m, const StepEnergy &now)
   {
-    kinetic = kinetic_now;
-    x       = m.grains.position[0];
-    y       = m.grains.position[1];
+    energy = now.kinetic + now.springs;
+    x      = m.grains.position[0];
+    y      = m.grains.position[1];
   }
 
 
@@ -281,10 +284,11 @@ namespace alluvium::run
         result.energy.sources = m.time_step * sums[2];
       }
     result.energy.kinetic = fluid_energy + grains_kinetic_energy(m.grains, result.grain_velocity);
-    result.energy.change  = result.energy.kinetic - kinetic;
+    result.energy.springs = m.grains_move ? m.contact_report.spring_energy : 0.;
+    result.energy.change  = result.energy.kinetic + result.energy.springs - energy;
     result.energy.sources += work_on_grains(m);
     result.energy.remainder = result.energy.change - result.energy.sources;
-    remember(m, result.energy.kinetic);
+    remember(m, result.energy);
     return result;
   }
 } // namespace alluvium::run

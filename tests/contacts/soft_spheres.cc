@@ -40,6 +40,61 @@ TEST(SoftSpheres, Restitution)
     }
 }
 
+// With e = 1 nothing is lost: what kinetic energy and height lack is in the springs, also seen from a restart.
+TEST(SoftSpheres, SpringsHoldTheRest)
+{
+  Scene s;
+  s.set(soft(1e3, 1.) + "\nset Wall friction coefficient = 0.5\nset Friction coefficient = 0.5\n"
+                        "subsection Soft spheres\n set Steps per collision = 1000\nend");
+  s.floor();
+  s.add(0., 1.2 * r, 0.05, -0.1);
+  s.add(0.1 * d, 2. * d, 0., -0.2);
+  const auto energy = [&] {
+    double sum = 0.;
+    for (std::size_t k = 0; k < s.grains.n(); ++k)
+      {
+        const double v2 = std::pow(s.grains.velocity[0][k], 2) + std::pow(s.grains.velocity[1][k], 2);
+        sum += s.grains.mass[k] * (0.5 * v2 + g * s.grains.position[1][k]) +
+               0.5 * disc_inertia(s.grains.mass[k], s.grains.radius[k]) * std::pow(s.grains.omega[k], 2);
+      }
+    return sum;
+  };
+  const double all     = energy();
+  double       largest = 0.;
+  s.step(1e-5, 1);
+  for (unsigned int n = 0; n < 300; ++n)
+    {
+      s.step(2e-5, 1);
+      largest = std::max(largest, s.report.spring_energy);
+      // what slips is lost
+      EXPECT_LE(energy() + s.report.spring_energy, all * (1. + 1e-4)) << n;
+      ContactStepper           again;
+      dealii::ParameterHandler prm;
+      again.add_parameters(prm);
+      prm.parse_input_from_string(soft(1e3, 1.));
+      again.set_walls(s.stepper.walls());
+      again.set_archive(s.stepper.archive());
+      EXPECT_NEAR(again.spring_energy(s.grains), s.report.spring_energy, 1e-14 * all);
+      EXPECT_NEAR(s.stepper.spring_energy(s.grains), s.report.spring_energy, 1e-14 * all);
+    }
+  EXPECT_GT(largest, 0.2 * all);
+  Scene frictionless;
+  frictionless.set(soft(1e3, 1.) + "\nset Wall friction coefficient = 0\nset Friction coefficient = 0\n"
+                                   "subsection Soft spheres\n set Steps per collision = 1000\nend");
+  frictionless.grains = s.grains;
+  frictionless.floor();
+  frictionless.grains.omega.assign(2, 0.);
+  frictionless.grains.position[1] = {3. * r, 3. * d};
+  s.grains                        = frictionless.grains;
+  const double start              = energy();
+  for (unsigned int n = 0; n < 300; ++n)
+    {
+      frictionless.step(1e-4, 1);
+      s.grains = frictionless.grains;
+      EXPECT_NEAR(energy() + frictionless.report.spring_energy, start, 2e-4 * start) << n;
+    }
+}
+
 // The overlap at the foot of a stack is n m g / k, and the floor carries the weight.
 TEST(SoftSpheres, Stack)
 {

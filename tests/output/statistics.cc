@@ -120,3 +120,16 @@ TEST_F(StatisticsTest, Mistakes)
   write_rows(statistics, 0., 1);
   EXPECT_THROW(statistics.add_column("late_s"), dealii::ExceptionBase);
 }
+
+TEST(Statistics, NamesInColumnsAreDistinct)
+{
+  using alluvium::output::names_in_columns;
+  const auto names = names_in_columns({"a b", "a_b", "a,b", "a_b_2", "c", "c"}, " ");
+  EXPECT_EQ(names.at("a b"), "a_b");
+  EXPECT_EQ(names.at("a_b"), "a_b_2");
+  EXPECT_EQ(names.at("a,b"), "a_b_3");
+  EXPECT_EQ(names.at("a_b_2"), "a_b_2_2");
+  EXPECT_EQ(names.at("c"), "c");
+  EXPECT_EQ(names.size(), 5u);
+  EXPECT_EQ(names_in_columns({"a b", "a\"b"}).at("a\"b"), "a_b");
+}

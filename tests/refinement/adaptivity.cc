@@ -94,6 +94,37 @@ namespace
     EXPECT_TRUE(find_bed_faces(grains::GrainArrays(), 0., 1.).empty());
   }
 
+  TEST(BedFaces, AreNotThoseOfARain)
+  {
+    // as much as a quarter of a layer in each column, but scattered over its height: alone, above a bed and below it
+    for (const double bed : {0., 0.25})
+      {
+        auto              grains = bed > 0. ? make_bed(d, 0.4, 0.4 + bed) : grains::GrainArrays();
+        const std::size_t n = grains.n(), n_rain = 64;
+        grains.resize(n + n_rain);
+        for (std::size_t k = 0; k < n_rain; ++k)
+          {
+            const double side         = k % 2 == 0 ? 0.02 : 0.7;
+            grains.position[0][n + k] = (k % 8 + 0.5) / 8.;
+            grains.position[1][n + k] = side + 0.3 * (k / 8) / 8.;
+            grains.radius[n + k]      = d / 2.;
+          }
+        const auto faces = find_bed_faces(grains, 0., 1.);
+        ASSERT_EQ(faces.empty(), bed == 0.);
+        if (bed == 0.)
+          continue;
+        EXPECT_NEAR(faces.bottom(), 0.4, 1e-12);
+        EXPECT_NEAR(faces.top(), 0.4 + bed, 1e-12);
+      }
+    // two large grains that fall one above the other
+    grains::GrainArrays grains;
+    grains.resize(2);
+    grains.position[0] = {2.5 * d, 2.6 * d};
+    grains.position[1] = {5. * d, 40. * d};
+    grains.radius.assign(2, d / 2.);
+    EXPECT_TRUE(find_bed_faces(grains, 0., 5.4 * d).empty());
+  }
+
   TEST(BedFaces, DoNotHangOnRoundOff)
   {
     // a box one and a half columns wide: two, also shifted and in other units

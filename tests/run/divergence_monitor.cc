@@ -31,7 +31,7 @@ namespace
     {
       kinetic += change;
       StepMeasures measures;
-      measures.energy         = {kinetic, change, sources, change - sources};
+      measures.energy         = {kinetic, 0., change, sources, change - sources};
       measures.grain_velocity = std::sqrt(2. * kinetic);
       return monitor.judge(model, measures);
     }

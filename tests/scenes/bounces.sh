@@ -1,6 +1,6 @@
 #!/bin/bash
 # Correct runs in which the kinetic energy is next to none at times are not taken for run-aways: a grain that bounces, at its highest
-# point, and grains that overlap a little without gravity.
+# point, grains that overlap a little without gravity, and soft ones, while their springs hold it.
 . "$SCENES/functions"
 cat >scene.prm <<'END2'
 set Gravity = 0, -9.81
@@ -40,4 +40,22 @@ for overlap in 1e-4 5e-3; do
     printf 'x,y,radius\n0.005,0.005,2e-4\n%s,0.005,2e-4\n' "$(/usr/bin/python3 -c "print(0.005 + 4e-4 * (1 - $overlap))")" >grains.csv
     must_run 1 scene.prm --set 'Gravity=0, 0' --set "Time/Time step=$dt" --set "Time/End time=$(/usr/bin/python3 -c "print(50.3 * $dt)")"
   done
+done
+
+# springs give back what they hold, with gravity and without, between grains and at walls, over a restart in the midst of a bounce
+soft=(--set 'Contacts/Contact model=soft-sphere' --set 'Contacts/Soft spheres/Restitution=1')
+printf 'x,y,radius,vx,vy\n0.005,0.0052,2e-4,0.1,-0.2\n0.007,0.0052,2e-4,-0.1,0.1\n' >grains.csv
+for gravity in '0, -9.81' '0, 0'; do
+  for stiffness in 1e5 1e7; do
+    for dt in 2e-4; do
+      must_run 1 scene.prm "${soft[@]}" --set "Gravity=$gravity" --set "Contacts/Soft spheres/Stiffness=$stiffness" --set "Time/Time step=$dt"
+      [ "$(/usr/bin/python3 -c 'import json; print(json.load(open("output/summary.json"))["audit"]["largest_unexplained_energy_over_bound"] < 0.5)')" = True ] ||
+        fail "springs of $stiffness Pa, steps of $dt s, gravity $gravity: energy is not explained"
+    done
+  done
+done
+printf 'x,y,radius,vx,vy\n0.005,0.00021,2e-4,0,-0.1\n' >grains.csv
+for end in 2e-4 6e-4; do
+  must_run 1 scene.prm "${soft[@]}" --set 'Gravity=0, 0' --set 'Contacts/Soft spheres/Stiffness=3e3' --set 'Time/Time step=1e-4' --set "Time/End time=$end"
+  must_run 1 scene.prm "${soft[@]}" --set 'Gravity=0, 0' --set 'Contacts/Soft spheres/Stiffness=3e3' --set 'Time/Time step=1e-4' --set Output/Restart=true
 done

@@ -42,7 +42,7 @@ limit_of() { # ARGUMENTS...
 }
 suspension=("$SCENES/suspension.prm" --set 'Coupling/Time scheme=explicit')
 found=$(limit_of "${suspension[@]}" --set 'Time/Time step=0.01')
-/usr/bin/python3 - "$found" "$(number 'bed of void fraction ([0-9.e-]+)')" "$(number 'tau_p [(]([0-9.e-]+) s')" <<'END' || fail "limit of the time step: '$found'"
+/usr/bin/python3 - "$found" "$(number 'suspension of void fraction ([0-9.e-]+)')" "$(number 'tau_p [(]([0-9.e-]+) s')" <<'END' || fail "limit of the time step: '$found'"
 import re, sys
 eps, tau_p = map(float, sys.argv[2:])
 limit = 2 * eps**2 * (1 - (1 - eps) / eps / 2.63) * tau_p
@@ -52,6 +52,14 @@ END
 [ -z "$(limit_of "$SCENES/suspension.prm" --set 'Time/Time step=0.01')" ] || fail "a warning of a scheme without a limit"
 [ "$(limit_of bed.prm --set 'Coupling/Time scheme=implicit drag' --set 'Grains/Fluid packing fraction=0')" = \
   'unstable with it at any time step' ] || fail "no warning of a bed that has no stable time step"
+
+# What touches nothing is no bed, and has no critical gradient; held where it is, it is one to the fluid.
+must_run 1 --check "$SCENES/suspension.prm"
+grep -q '^  suspension .*packing fraction' screen-output && grep -q 'held up at a superficial velocity' screen-output ||
+  fail "a suspension"
+! grep -qE '^  (bed|heave) |[^a-z]bed of' screen-output || fail "a suspension is called a bed"
+must_run 1 --check "$SCENES/suspension.prm" --set Grains/Fixed=true
+grep -q '^  bed ' screen-output || fail "a fixed bed"
 
 # Darcy's law of the run
 must_run 1 bed.prm --set 'Grains/Fixed=true' --set 'Time/Time step=0.01' --set 'Time/End time=0.2' --set 'Boundary conditions/Pressure=top: 0; bottom: rho*g*H + 0.05*rho*g*L'

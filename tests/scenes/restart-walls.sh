@@ -100,3 +100,20 @@ for a, b in zip(old, new):
     assert all(a[k] == b[k] for k in a) and b["wall_c_y_m"] == ""
 assert abs(float(new[-1]["wall_c_y_m"]) - 0.0065) < 1e-5, new[-1]  # its middle turns by 0.05 and rises by 0.001
 END2
+
+# where walls are held with the grains, one that is put elsewhere stands there
+printf 'x,y,radius\n0.005,0.0002,0.0002\n' >grain.csv
+sed -i 's/^  set Extra walls = .*/&\n  set Motion of walls = a: 0.1, 0; b: 0.1, 0/' scene.prm
+must_run 1 scene.prm --set 'Output/Overwrite output folder=true' --set Grains/Fixed=true
+again held --set 'Time/End time=0.06' --set Grains/Fixed=true --set "$moved"
+again freed --set 'Time/End time=0.06' --set "$moved"
+near "$(column held/statistics.csv wall_b_x_m)" 0.031 1e-12 "a wall in a new place, held"
+near "$(column freed/statistics.csv wall_b_x_m)" 0.032 1e-9 "a wall in a new place, held until now"
+near "$(column freed/statistics.csv wall_a_x_m)" 0.021 1e-9 "a wall in its place, held until now"
+
+# two names that columns would call the same
+sed -i '/Extra walls/d; s/^  set Motion of walls = .*/  set Extra walls = a b: 0.02, 0.005 -> 0.02, 0.006; a_b: 0.03, 0.005 -> 0.03, 0.006\
+  set Motion of walls = a b: 0.1, 0; a_b: 0.2, 0/' scene.prm
+must_run 1 scene.prm --set 'Output/Overwrite output folder=true'
+near "$(column output/statistics.csv wall_a_b_x_m)" 0.025 1e-9 "the wall 'a b'"
+near "$(column output/statistics.csv wall_a_b_2_x_m)" 0.04 1e-9 "the wall 'a_b'"

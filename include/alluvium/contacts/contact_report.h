@@ -42,8 +42,9 @@ namespace alluvium::contacts
      * and without gravity. */
     double smooth_velocity = std::numeric_limits<double>::quiet_NaN();
     double max_penetration = 0., mean_penetration = 0.; // over the overlapping contacts at the end [m]
-    double max_velocity = 0.;                           // of any grain at the end [m/s]
-    double wall_work    = 0.;                           // of walls that move on the grains, in the step [J/m]
+    double max_velocity  = 0.;                          // of any grain at the end [m/s]
+    double wall_work     = 0.;                          // of walls that move on the grains, in the step [J/m]
+    double spring_energy = 0.;                          // of soft spheres, at the end [J/m]
     Crush  crush;                                       // the deepest of the step
   };
 } // namespace alluvium::contacts

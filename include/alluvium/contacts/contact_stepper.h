@@ -97,6 +97,9 @@ namespace alluvium::contacts
      */
     std::vector<ContactForce> forces(const grains::GrainArrays &grains) const;
 
+    /** What the springs of soft spheres hold now [J/m]; 0 with other contacts. */
+    double spring_energy(const grains::GrainArrays &grains) const;
+
     /**
      * To try a step and take it back: restore() what memory() was before it, and start again from the grains of then.
      * The impulses of the try stay, as a first guess; contacts that have a history (cohesion, soft spheres) forget the

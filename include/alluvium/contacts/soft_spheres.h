@@ -49,6 +49,11 @@ namespace alluvium::contacts
     /** What the tangential spring of @p pair carries [N/m]; its dashpot is left out. */
     double spring_force(const ContactPair &pair) const { return -tangential_ratio * stiffness * pair.rt; }
 
+    /** What the springs of @p pairs hold [J/m]. Grains and walls are where they were when the pairs were last used. */
+    double spring_energy(const grains::GrainArrays &grains,
+                         const ContactGeometry     &geometry,
+                         const ContactCandidates   &pairs) const;
+
     double       stiffness = 1e5, tangential_ratio = 2. / 7., restitution = 0.5;
     unsigned int steps_per_collision = 50;
 

@@ -51,5 +51,8 @@ namespace alluvium::deposits
     /** Does it put grains down on a floor? Then it is given a scene turned upright, and what it makes is turned back.
      */
     virtual bool falls() const { return false; }
+
+    /** Of a deposit that is meant to make no grains: what stands for their diameter [m]. Else 0. */
+    virtual double unit_length() const { return 0.; }
   };
 } // namespace alluvium::deposits

@@ -11,8 +11,9 @@ namespace alluvium::grains
   /**
    * Where the grains' bed begins and ends, looked for in columns because a bed need not be level. The top of a column
    * is the height y + r above which there is a quarter of a layer of grains (area 0.25 d times the column's width), so
-   * a few grains that fly above the bed do not move it; the bottom likewise with y - r. A column with fewer grains than
-   * that has no bed. Columns stand as `upright` says: left and right are its `across`, bottom and top its heights.
+   * a few grains that fly above the bed do not move it; the bottom likewise with y - r. That quarter of a layer lies
+   * within 3 d: grains that rain far from one another are no bed. A column without as many has none. Columns stand as
+   * `upright` says: left and right are its `across`, bottom and top its heights.
    */
   struct BedFaces
   {

@@ -3,6 +3,7 @@
 #include <mpi.h>
 
 #include <fstream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -53,4 +54,11 @@ namespace alluvium::output
     std::vector<std::string> row; // as written; empty: not set
     std::ofstream            file;
   };
+
+  /**
+   * What columns call things of the given @p names, each once: characters that are among @p unwanted become `_`, as do
+   * commas and quotation marks, and where two would be called the same, the later one gets a number.
+   */
+  std::map<std::string, std::string> names_in_columns(const std::vector<std::string> &names,
+                                                      const std::string              &unwanted = "");
 } // namespace alluvium::output

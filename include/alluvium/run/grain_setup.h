@@ -35,6 +35,8 @@ namespace alluvium::run
 
     bool fixed() const { return fixed_grains; }
     bool mass_follows_fluid_radius() const { return mass_follows == "fluid radius"; }
+    /** Where there shall be no grains, what sizes are measured in [m]; else 0. */
+    double unit_length() const { return deposit.get().unit_length(); }
     /** Fluid radius over contact radius of the grains made last. */
     double radius_factor() const { return last_factor; }
 

@@ -102,6 +102,8 @@ namespace alluvium::run
     std::unique_ptr<output::Summary>        summary;
     std::unique_ptr<output::FieldSeries>    fluid_pictures, grain_pictures, wall_pictures;
 
+    bool has_pictures = false; // of the latest step
+
     // impulses of the fluid on all grains, and on those outside the range of the drag law [N s/m]
     double drag_impulse = 0., drag_impulse_outside = 0.;
 

@@ -13,6 +13,7 @@ namespace alluvium::run
   {
     double             diameter = 0., radius_factor = 1.; // mean contact diameter [m]; fluid over contact radius
     grains::BedPacking bed;
+    bool               is_suspension = false; // most of its grains touch nothing, and may move
 
     double eps                   = 1.; // of the bed as the fluid sees it
     double permeability          = 0.; // of the bed with its void fraction as it is in the run [m^2]

@@ -13,7 +13,8 @@ namespace alluvium::run
   struct StepEnergy
   {
     double kinetic   = 0.; // of fluid and grains at its end [J/m]
-    double change    = 0.; // of that since the last step [J/m]
+    double springs   = 0.; // held by the springs of soft spheres then [J/m]
+    double change    = 0.; // of both since the last step [J/m]
     double sources   = 0.; // work done on them in it, at most [J/m]
     double remainder = 0.; // what neither explains; of a balance that knows its dissipation [J/m]
   };
@@ -32,9 +33,10 @@ namespace alluvium::run
 
   /**
    * Measures a step in one pass over the fluid's cells and one over the grains. Kinetic energy is that of the fluid at
-   * the nodes and of the grains. Its sources are bounded from above: pressure and velocity at open boundaries, grains
-   * that sink, walls and prescribed grains that push. A pressure boundary supplies its pressure, and what flows in no
-   * more kinetic energy than the pressures on boundaries differ by; dissipation is not looked at.
+   * the nodes and of the grains; the springs of soft spheres give back what they hold. Its sources are bounded from
+   * above: pressure and velocity at open boundaries, grains that sink, walls and prescribed grains that push. A
+   * pressure boundary supplies its pressure, and what flows in no more kinetic energy than the pressures on boundaries
+   * differ by; dissipation is not looked at.
    */
   class StepMeter
   {
@@ -62,11 +64,11 @@ namespace alluvium::run
     double largest_shear_power(const Model &model, const Face &face) const;
     double boundary_work(const Model &model) const;
     double work_on_grains(const Model &model) const;
-    void   remember(const Model &model, double kinetic);
+    void   remember(const Model &model, const StepEnergy &now);
 
     bool                faces_known = false;
     std::vector<Face>   faces;
-    std::vector<double> x, y; // of the grains before the step [m]
-    double              kinetic = 0.;
+    std::vector<double> x, y;        // of the grains before the step [m]
+    double              energy = 0.; // kinetic, and of springs [J/m]
   };
 } // namespace alluvium::run

@@ -43,9 +43,12 @@ namespace alluvium::contacts
       "times the sub-step dt [-]: grains that touch move on one another with about this times g dt where they should "
       "not, at any depth. Without gravity the largest speed of a grain or a wall stands for g dt. With much more than "
       "1e-4 a loaded bed creeps and sinks, and costs more, not less. In sub-steps shorter than 0.2 sqrt(d/g) all "
-      "tolerances are wider by the ratio, at most ten times: the speed at which the bed creeps is then the same.",
+      "tolerances are wider by the ratio, at most ten times: the speed at which the bed creeps is then the same. A "
+      "sub-step is solved when this and `Largest violation` hold: where a few contacts are much worse than the others, "
+      "as in impacts, the latter decides, and this one alone changes nothing.",
       Double(0.));
-    prm.add_parameter("Largest violation", violation_tolerance, "The same for the worst contact [-].", Double(0.));
+    prm.add_parameter(
+      "Largest violation", violation_tolerance, "The same for the worst contact [-]; both must hold.", Double(0.));
     prm.add_parameter(
       "Moment correction",
       moment_correction,
