@@ -26,26 +26,35 @@ namespace alluvium::coupling
     /** Mean over a step of @p dt, from displacements before and after it: the motion whose drag grains felt. */
     GrainMotion mean_motion(const grains::Components &before, const grains::GrainArrays &after, const double dt)
     {
-      const grains::Components moved = displacements(after);
-      GrainMotion              motion{moved[0], moved[1], after.omega};
-      for (std::size_t g = 0; g < after.n(); ++g)
-        {
-          motion.vx[g] = (moved[0][g] - before[0][g]) / dt;
-          motion.vy[g] = (moved[1][g] - before[1][g]) / dt;
-        }
+      GrainMotion motion{displacements(after), after.omega};
+      for (unsigned int d = 0; d < 2; ++d)
+        for (std::size_t g = 0; g < after.n(); ++g)
+          motion.velocity[d][g] = (motion.velocity[d][g] - before[d][g]) / dt;
       return motion;
     }
 
-    void mix(const std::vector<GrainMotion> &motions, const std::vector<double> &weights, GrainMotion &result)
+    /** @p result = sum of @p weights times what @p part takes from @p motions. */
+    template <typename Part>
+    void mix(const std::vector<GrainMotion> &motions,
+             const std::vector<double>      &weights,
+             const Part                     &part,
+             std::vector<double>            &result)
     {
-      for (auto part : {&GrainMotion::vx, &GrainMotion::vy, &GrainMotion::omega})
-        {
-          std::vector<double> &sum = result.*part;
-          sum.assign((motions[0].*part).size(), 0.);
-          for (std::size_t i = 0; i < motions.size(); ++i)
-            for (std::size_t g = 0; g < sum.size(); ++g)
-              sum[g] += weights[i] * (motions[i].*part)[g];
-        }
+      result.assign(part(motions[0]).size(), 0.);
+      for (std::size_t i = 0; i < motions.size(); ++i)
+        for (std::size_t g = 0; g < result.size(); ++g)
+          result[g] += weights[i] * part(motions[i])[g];
+    }
+
+    GrainMotion mix(const std::vector<GrainMotion> &motions, const std::vector<double> &weights)
+    {
+      GrainMotion result;
+      for (unsigned int d = 0; d < 2; ++d)
+        mix(
+          motions, weights, [d](const GrainMotion &m) -> const auto & { return m.velocity[d]; }, result.velocity[d]);
+      mix(
+        motions, weights, [](const GrainMotion &m) -> const auto & { return m.omega; }, result.omega);
+      return result;
     }
 
     double root_mean_square(const std::vector<double> &components)
@@ -66,19 +75,19 @@ namespace alluvium::coupling
   } // namespace
 
 
-  ContactIteration::Answer ContactIteration::move(grains::GrainArrays         &grains,
-                                                  const grains::GrainLoads    &loads,
-                                                  const double                 dt,
-                                                  const std::array<double, 2> &gravity,
-                                                  const double                 haste)
+  ContactIteration::Attempt ContactIteration::move(grains::GrainArrays         &grains,
+                                                   const grains::GrainLoads    &loads,
+                                                   const double                 dt,
+                                                   const std::array<double, 2> &gravity,
+                                                   const double                 haste)
   {
     const auto               timer  = timers.scope("contacts");
     const grains::Components before = displacements(grains), velocity = grains.velocity;
-    Answer                   answer;
-    answer.report = contacts.advance(grains, loads, dt, gravity, haste);
-    answer.motion = mean_motion(before, grains, dt);
-    answer.unseen = coupling.unseen_force(velocity, answer.motion, loads);
-    return answer;
+    Attempt                  attempt;
+    attempt.report = contacts.advance(grains, loads, dt, gravity, haste);
+    attempt.motion = mean_motion(before, grains, dt);
+    attempt.unseen = coupling.unseen_force(grains, velocity, attempt.motion, loads);
+    return attempt;
   }
 
 
@@ -95,7 +104,6 @@ namespace alluvium::coupling
     contacts::StepStart      start;
     AndersonMixing           mixing(depth);
     std::vector<GrainMotion> motions;
-    GrainMotion              guess;
     double                   best      = std::numeric_limits<double>::max();
     unsigned int             n_stalled = 0;
     if (tries)
@@ -108,41 +116,40 @@ namespace alluvium::coupling
     };
     for (n = 0;; ++n)
       {
-        Answer answer = move(grains, loads, dt, gravity, haste);
-        count(answer.report);
-        const double defect    = root_mean_square(answer.unseen);
+        Attempt attempt = move(grains, loads, dt, gravity, haste);
+        count(attempt.report);
+        const double defect    = root_mean_square(attempt.unseen);
         n_stalled              = defect > 0.7 * best ? n_stalled + 1 : 0;
         best                   = std::min(best, defect);
         const double tolerance = n == 0 ? 0.1 * limit.tolerance : limit.tolerance;
-        agree                  = !tries || agrees(answer, tolerance);
+        agree                  = !tries || agrees(grains, attempt, tolerance);
         if (agree || n_stalled == 2 || n == limit.largest_number)
           {
-            if (answer.report.hasty)
+            if (attempt.report.hasty)
               {
                 start.restore(grains, contacts);
-                answer = move(grains, loads, dt, gravity, 1.);
-                count(answer.report);
-                agree = agrees(answer, tolerance); // hasty only if the step may be repeated
+                attempt = move(grains, loads, dt, gravity, 1.);
+                count(attempt.report);
+                agree = agrees(grains, attempt, tolerance); // hasty only if the step may be repeated
               }
-            coupling.set_unseen_force(answer.unseen);
-            return answer.report;
+            coupling.set_unseen_force(attempt.unseen);
+            return attempt.report;
           }
-        motions.push_back(std::move(answer.motion));
-        mixing.add(std::move(answer.unseen));
+        motions.push_back(std::move(attempt.motion));
+        mixing.add(std::move(attempt.unseen));
         if (motions.size() > mixing.n())
           motions.erase(motions.begin());
         const std::vector<double> weights = mixing.weights();
-        mix(motions, weights, guess);
-        const auto timer = timers.scope("fluid");
+        const auto                timer   = timers.scope("fluid");
         start.restore(grains, contacts);
-        coupling.repeat(guess, weights, loads);
+        coupling.repeat(grains, mix(motions, weights), weights, loads);
       }
   }
 
 
-  bool ContactIteration::agrees(const Answer &answer, const double tolerance) const
+  bool ContactIteration::agrees(const grains::GrainArrays &grains, const Attempt &attempt, const double tolerance) const
   {
-    return root_mean_square(answer.unseen) <= tolerance * coupling.typical_force() &&
-           size_of_sum(answer.unseen) <= 0.1 * tolerance * coupling.report().force_scale;
+    return root_mean_square(attempt.unseen) <= tolerance * coupling.typical_force(grains) &&
+           size_of_sum(attempt.unseen) <= 0.1 * tolerance * coupling.report().force_scale;
   }
 } // namespace alluvium::coupling

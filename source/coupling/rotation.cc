@@ -1,5 +1,7 @@
 #include <alluvium/coupling/rotation.h>
 
+#include <cmath>
+
 namespace alluvium::coupling
 {
   namespace
@@ -19,18 +21,16 @@ namespace alluvium::coupling
   }
 
 
-  GrainTorques grain_torques(const CouplingState &state, const std::vector<std::uint8_t> &old)
+  void add_torque_sums(const CouplingState &state, const SeenFluid fluid, GrainSums &sums, const unsigned int first)
   {
-    const std::size_t   n_grains = state.grains.n();
-    std::vector<double> sums(2 * n_grains, 0.);
+    const bool is_old = fluid == SeenFluid::old;
     for (std::size_t k = 0; k < state.n_pieces(); ++k)
       {
-        const bool         is_old = !old.empty() && old[k];
-        const unsigned int g      = state.map.grain()[k];
-        const PieceField  &f      = is_old ? state.old[k] : state.latest[k];
-        const auto        &L      = is_old ? state.old_gradient[k] : state.latest_gradient[k];
-        const auto        &arm    = state.map.arms()[k].arm;
-        const auto        &c      = state.map.arms()[k].moments;
+        const unsigned int g    = state.map.grain()[k];
+        const PieceField  &f    = is_old ? state.old[k] : state.latest[k];
+        const auto        &L    = is_old ? state.old_gradient[k] : state.latest_gradient[k];
+        const auto        &arm  = state.map.arms()[k].arm;
+        const auto        &c    = state.map.arms()[k].moments;
         const double       area = state.map.terms().shape[k].area, gamma = state.gamma[k];
 
         std::array<double, 2> push = {{gamma * (f.u[0] - state.grains.velocity[0][g]) - f.grad_p[0],
@@ -38,16 +38,31 @@ namespace alluvium::coupling
         if (state.added_density > 0.)
           for (unsigned int d = 0; d < 2; ++d)
             push[d] += state.added_density * (f.u[d] / state.dt + state.acceleration[k][d]);
-        sums[2 * g] += area * cross(arm, push) + couple(state, k, L);
-        sums[2 * g + 1] += area * gamma * (arm[0] * arm[0] + arm[1] * arm[1] + c[0] + c[2]);
+        sums.of(g)[first] += area * cross(arm, push) + couple(state, k, L);
+        sums.of(g)[first + 1] += area * gamma * (arm[0] * arm[0] + arm[1] * arm[1] + c[0] + c[2]);
       }
-    state.map.sum_over_ranks(sums);
-    GrainTorques result;
-    for (std::size_t g = 0; g < n_grains; ++g)
-      {
-        result.torque.push_back(sums[2 * g]);
-        result.spin_drag.push_back(sums[2 * g + 1]);
-      }
+  }
+
+
+  std::vector<std::array<double, 2>> periodic_shifts(const CouplingState &state, const fluid::FluidSpace<2> &space)
+  {
+    std::vector<std::array<double, 2>> result(state.n_pieces(), {{0., 0.}});
+    const auto                         box   = space.periodic_box();
+    const unsigned int                 n     = space.n_nodes_per_cell();
+    const auto                        &begin = state.map.terms().begin;
+    for (unsigned int d = 0; d < 2; ++d)
+      if (box.length[d] > 0.)
+        for (unsigned int c = 0; c < space.cells().size(); ++c)
+          {
+            double middle = 0.;
+            for (unsigned int v = 0; v < n; ++v)
+              middle += space.cells()[c].vertex[v][d] / n;
+            for (unsigned int k = begin[c]; k < begin[c + 1]; ++k)
+              {
+                const double position = state.grains.position[d][state.map.grain()[k]] + state.map.arms()[k].arm[d];
+                result[k][d]          = box.length[d] * std::round((middle - position) / box.length[d]);
+              }
+          }
     return result;
   }
 } // namespace alluvium::coupling

@@ -44,11 +44,20 @@ namespace alluvium::coupling
         once().exchange_terms(state, sweep, exchange);
       }
 
+      unsigned int n_load_sums() const override { return once().n_load_sums(); }
+
+      void add_load_sums(const CouplingState &state, GrainSums &sums, const unsigned int first) const override
+      {
+        once().add_load_sums(state, sums, first);
+      }
+
       void loads(const CouplingState                      &state,
                  const std::vector<std::array<double, 2>> &force,
+                 const GrainSums                          &sums,
+                 const unsigned int                        first,
                  grains::GrainLoads                       &loads) const override
       {
-        once().loads(state, force, loads);
+        once().loads(state, force, sums, first, loads);
       }
 
     private:

@@ -1,4 +1,5 @@
 #include <alluvium/coupling/rotation.h>
+#include <alluvium/coupling/time_scheme.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -40,10 +41,11 @@ namespace alluvium::coupling
       {
         const auto &grains = state.grains;
         const auto  lag    = [&](const std::size_t k) -> const PieceField  &{
-          const bool keep = !state.answer && (sweep == 0 || state.touched[state.map.grain()[k]]);
+          const bool keep = !state.corrected_motion && (sweep == 0 || state.touched[state.map.grain()[k]]);
           return keep ? state.old[k] : state.latest[k];
         };
-        const GrainMotion known = state.answer ? *state.answer : predicted_motion(state, lag, sweep);
+        const GrainMotion known =
+          state.corrected_motion ? *state.corrected_motion : predicted_motion(state, lag, sweep);
         for (std::size_t k = 0; k < exchange.size(); ++k)
           {
             const unsigned int      g    = state.map.grain()[k];
@@ -52,27 +54,36 @@ namespace alluvium::coupling
             fluid::PieceExchange<2> x;
             x.gamma      = state.coefficient(k);
             x.compliance = 0.5 / (grains.mass[g] / (state.volume(g) * state.dt) + x.gamma);
-            x.a          = {
-                       {known.vx[g] + spin[0] + x.compliance * f.grad_p[0], known.vy[g] + spin[1] + x.compliance * f.grad_p[1]}};
-            x.e         = state.added_force(k);
-            x.omega     = known.omega[g];
-            x.reference = &f == &state.old[k] ? 1 : 2;
-            exchange[k] = x;
+            x.a          = {{known.velocity[0][g] + spin[0] + x.compliance * f.grad_p[0],
+                             known.velocity[1][g] + spin[1] + x.compliance * f.grad_p[1]}};
+            x.e          = state.added_force(k);
+            x.omega      = known.omega[g];
+            x.reference  = &f == &state.old[k] ? 1 : 2;
+            exchange[k]  = x;
           }
+      }
+
+      unsigned int n_load_sums() const override { return 3; }
+
+      void add_load_sums(const CouplingState &state, GrainSums &sums, const unsigned int first) const override
+      {
+        add_sums(
+          state, [&](const std::size_t k) -> const PieceField & { return state.latest[k]; }, sums, first);
       }
 
       void loads(const CouplingState &state,
                  const std::vector<std::array<double, 2>> &,
+                 const GrainSums    &sums,
+                 const unsigned int  first,
                  grains::GrainLoads &loads) const override
       {
-        const auto                latest = [&](const std::size_t k) -> const PieceField                &{ return state.latest[k]; };
-        const std::vector<double> sums   = sum_over_pieces(state, latest);
         for (std::size_t g = 0; g < state.grains.n(); ++g)
           {
-            const auto weight = state.reduced_weight(g);
-            loads.force[0][g] = weight[0] + sums[3 * g];
-            loads.force[1][g] = weight[1] + sums[3 * g + 1];
-            loads.drag[g]     = sums[3 * g + 2];
+            const auto    weight = state.reduced_weight(g);
+            const double *sum    = sums.of(g) + first;
+            loads.force[0][g]    = weight[0] + sum[0];
+            loads.force[1][g]    = weight[1] + sum[1];
+            loads.drag[g]        = sum[2];
           }
         if (state.added_density == 0.)
           return;
@@ -93,56 +104,47 @@ namespace alluvium::coupling
       template <typename Field>
       static GrainMotion predicted_motion(const CouplingState &state, const Field &lag, const unsigned int sweep)
       {
-        const auto               &grains = state.grains;
-        const std::vector<double> sums   = sum_over_pieces(state, lag);
-        GrainMotion               motion{grains.velocity[0], grains.velocity[1], predicted_spin(state, sweep)};
+        const auto &grains    = state.grains;
+        const bool  with_spin = state.couples_spin();
+        GrainMotion motion{grains.velocity, grains.omega};
+        GrainSums   sums(grains.n(), with_spin ? 3 + n_torque_sums : 3);
+        add_sums(state, lag, sums, 0);
+        if (with_spin)
+          add_torque_sums(state, sweep == 0 ? SeenFluid::old : SeenFluid::latest, sums, 3);
+        sums.complete(state.map.communicator());
         for (std::size_t g = 0; g < grains.n(); ++g)
           {
-            const double inertia = grains.mass[g] / state.dt, denominator = inertia + sums[3 * g + 2];
-            const auto   weight = state.reduced_weight(g);
-            motion.vx[g] =
-              (inertia * grains.velocity[0][g] + weight[0] + grains.contact_force[0][g] + sums[3 * g]) / denominator;
-            motion.vy[g] =
-              (inertia * grains.velocity[1][g] + weight[1] + grains.contact_force[1][g] + sums[3 * g + 1]) /
-              denominator;
+            const double *sum     = sums.of(g);
+            const double  inertia = grains.mass[g] / state.dt, denominator = inertia + sum[2];
+            const auto    weight = state.reduced_weight(g);
+            for (unsigned int d = 0; d < 2; ++d)
+              motion.velocity[d][g] =
+                (inertia * grains.velocity[d][g] + weight[d] + grains.contact_force[d][g] + sum[d]) / denominator;
+            if (with_spin && !state.touched[g] && !std::isinf(grains.mass[g]))
+              {
+                const double turning = grains::disc_inertia(grains.mass[g], grains.radius[g]) / state.dt;
+                motion.omega[g]      = (turning * grains.omega[g] + sum[3]) / (turning + sum[4]);
+              }
           }
         return motion;
       }
 
-      static std::vector<double> predicted_spin(const CouplingState &state, const unsigned int sweep)
-      {
-        std::vector<double> omega = state.grains.omega;
-        if (!state.couples_spin())
-          return omega;
-        const GrainTorques torques = grain_torques(state, std::vector<std::uint8_t>(state.n_pieces(), sweep == 0));
-        for (std::size_t g = 0; g < omega.size(); ++g)
-          if (!state.touched[g] && !std::isinf(state.grains.mass[g]))
-            {
-              const double inertia = grains::disc_inertia(state.grains.mass[g], state.grains.radius[g]) / state.dt;
-              omega[g]             = (inertia * omega[g] + torques.torque[g]) / (inertia + torques.spin_drag[g]);
-            }
-        return omega;
-      }
-
-      /** S_x, S_y [N/m], what spin takes from them included, and G [N s/m^2] of every grain, one after the other. */
+      /** S_x, S_y [N/m], what spin takes from them included, and G [N s/m^2] of every grain. */
       template <typename Field>
-      static std::vector<double> sum_over_pieces(const CouplingState &state, const Field &field)
+      static void add_sums(const CouplingState &state, const Field &field, GrainSums &sums, const unsigned int first)
       {
-        std::vector<double> sums(3 * state.grains.n(), 0.);
         for (std::size_t k = 0; k < state.n_pieces(); ++k)
           {
-            const unsigned int g     = state.map.grain()[k];
-            const double       area  = state.map.terms().shape[k].area;
-            const double       gamma = state.coefficient(k);
-            const PieceField  &f     = field(k);
-            const auto         spin  = state.spin_velocity(k);
-            const auto         added = state.added_force(k);
+            const double      area  = state.map.terms().shape[k].area;
+            const double      gamma = state.coefficient(k);
+            const PieceField &f     = field(k);
+            const auto        spin  = state.spin_velocity(k);
+            const auto        added = state.added_force(k);
+            double           *sum   = sums.of(state.map.grain()[k]) + first;
             for (unsigned int d = 0; d < 2; ++d)
-              sums[3 * g + d] += area * (gamma * (f.u[d] - spin[d]) + added[d] - f.grad_p[d]);
-            sums[3 * g + 2] += area * gamma;
+              sum[d] += area * (gamma * (f.u[d] - spin[d]) + added[d] - f.grad_p[d]);
+            sum[2] += area * gamma;
           }
-        state.map.sum_over_ranks(sums);
-        return sums;
       }
 
       unsigned int n_pairs = 1;

@@ -146,6 +146,8 @@ namespace alluvium::fluid
   void VansSolver<dim>::begin_step(const BoundaryConditions<dim> &boundary_conditions, const VansProblem<dim> &problem)
   {
     current                = problem;
+    given_inertia          = problem.inertia ? std::make_unique<BlockVector>(*problem.inertia) : nullptr;
+    current.inertia        = given_inertia.get();
     current.fluid          = properties;
     current.discretisation = discretisation;
     current.old            = &previous;

@@ -26,7 +26,10 @@ namespace
     map.reinit();
     map.cut(grains, {});
     // one-way: the fluid's fields are given; Euler's equation is its pressure gradient
-    bed::coupling::CouplingState state(grains, {0}, map, dt);
+    bed::coupling::PieceState pieces;
+    pieces.dt      = dt;
+    pieces.touched = {0};
+    bed::coupling::CouplingState state(grains, map, std::move(pieces));
     const std::size_t            n = state.n_pieces();
     state.gravity                  = {{0., gravity ? -g : 0.}};
     state.fluid_density            = rho;
@@ -38,7 +41,9 @@ namespace
     const auto scheme = alluvium::Registry<bed::coupling::TimeScheme>::entries().at("semi-implicit per grain").create();
     bed::grains::GrainLoads loads;
     loads.reset(1);
-    scheme->loads(state, {{{0., 0.}}}, loads);
+    bed::coupling::GrainSums sums(1, scheme->n_load_sums());
+    scheme->add_load_sums(state, sums, 0);
+    scheme->loads(state, {{{0., 0.}}}, sums, 0, loads);
 
     alluvium::contacts::ContactStepper stepper;
     ParameterHandler                   prm;

@@ -41,9 +41,9 @@ TEST(Periodic, PiecesAddUpAcrossTheSide)
             area[g] += pieces.shape[k].area;
             (channel.space.cells()[c].vertex[0][0] < 0.5 * b.width ? at_left : at_right)[g] += pieces.shape[k].area;
           }
-      map.sum_over_ranks(area);
-      map.sum_over_ranks(at_left);
-      map.sum_over_ranks(at_right);
+      bed::coupling::sum_over_ranks(area, map.communicator());
+      bed::coupling::sum_over_ranks(at_left, map.communicator());
+      bed::coupling::sum_over_ranks(at_right, map.communicator());
       for (std::size_t g = 0; g < b.grains.n(); ++g)
         EXPECT_NEAR(area[g] / (M_PI * b.grains.fluid_radius[g] * b.grains.fluid_radius[g]), 1., 1e-13);
       // half of a grain on the side is at the left, half at the right

@@ -55,25 +55,28 @@ namespace
 
     void step()
     {
-      bed::coupling::CouplingState state(grain, touched, map, dt);
+      bed::coupling::PieceState pieces;
+      pieces.dt      = dt;
+      pieces.touched = {0};
+      bed::coupling::CouplingState state(grain, map, std::move(pieces));
       state.gamma.assign(state.n_pieces(), gamma_value);
       bed::coupling::evaluate(map, channel.space, field, state.old);
-      state.latest                    = state.old;
-      state.latest_gradient           = bed::coupling::velocity_gradients(map, channel.space, field);
-      const auto              torques = bed::coupling::grain_torques(state);
+      state.latest          = state.old;
+      state.latest_gradient = bed::coupling::velocity_gradients(map, channel.space, field);
+      bed::coupling::GrainSums torques(1, bed::coupling::n_torque_sums);
+      bed::coupling::add_torque_sums(state, bed::coupling::SeenFluid::latest, torques, 0);
       bed::grains::GrainLoads loads;
       loads.reset(1);
-      loads.torque    = torques.torque;
-      loads.spin_drag = torques.spin_drag;
+      loads.torque    = {torques.of(0)[0]};
+      loads.spin_drag = {torques.of(0)[1]};
       turn(grain, loads, dt);
     }
 
-    bed::Channel                    channel;
-    bed::coupling::OverlapMap       map;
-    bed::fluid::BlockVector         field;
-    bed::grains::GrainArrays        grain;
-    const std::vector<std::uint8_t> touched = {0};
-    const double                    dt;
+    bed::Channel              channel;
+    bed::coupling::OverlapMap map;
+    bed::fluid::BlockVector   field;
+    bed::grains::GrainArrays  grain;
+    const double              dt;
   };
 
   template <typename Action>

@@ -1,6 +1,8 @@
 // What the pressure does when grains cross cell faces. A void fraction that jumps with a grain's centre, in a
 // continuity equation with its rate, makes a spike of (pi/4) rho (d/dt)^2 or so; neither is done here, both are done
 // for comparison.
+#include <alluvium/coupling/void_fraction.h>
+
 #include "moving_grain.h"
 
 #include <gtest/gtest.h>
@@ -80,7 +82,7 @@ namespace
         map.cut(grains, settings);
         old = eps;
         old.update_ghost_values();
-        map.void_fraction(eps);
+        bed::coupling::lumped_void_fraction(map.terms(), channel.space, eps);
         rate.set(eps, k == 0 ? eps : old, dt);
         for (std::size_t p = 0; p < map.terms().n_pieces(); ++p)
           map.terms().exchange[p].a = {

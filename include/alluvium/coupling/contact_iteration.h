@@ -7,9 +7,9 @@ namespace alluvium::coupling
 {
   /**
    * Moves the grains through a step whose fluid is solved. Where the time scheme repeats, and the velocities that the
-   * fluid saw are not those that the grains take, the fluid is solved again with the grains' answer and the grains
-   * start again from where they were, until both agree: in a jammed bed the contact forces of the last step are not
-   * those of this one. The next guess is the combination of the answers so far that would make the disagreement
+   * fluid saw are not those that the grains take, the fluid is solved again with the motion that the grains took and
+   * the grains start again from where they were, until both agree: in a jammed bed the contact forces of the last step
+   * are not those of this one. The next guess is the combination of the motions so far that would make the disagreement
    * smallest (Anderson mixing). The end is also where that does not get smaller any more: it cannot where contacts are
    * solved loosely, as between fast grains. There the contacts of what is taken back are solved more loosely still.
    */
@@ -37,19 +37,19 @@ namespace alluvium::coupling
 
   private:
     /** What contacts make of the grains, and the forces that the fluid has not seen in it. */
-    struct Answer
+    struct Attempt
     {
       contacts::ContactReport report;
       GrainMotion             motion;
       std::vector<double>     unseen; // Coupling::unseen_force()
     };
 
-    Answer move(grains::GrainArrays         &grains,
-                const grains::GrainLoads    &loads,
-                double                       dt,
-                const std::array<double, 2> &gravity,
-                double                       haste);
-    bool   agrees(const Answer &answer, double tolerance) const;
+    Attempt move(grains::GrainArrays         &grains,
+                 const grains::GrainLoads    &loads,
+                 double                       dt,
+                 const std::array<double, 2> &gravity,
+                 double                       haste);
+    bool    agrees(const grains::GrainArrays &grains, const Attempt &attempt, double tolerance) const;
 
     Coupling                 &coupling;
     contacts::ContactStepper &contacts;

@@ -1,11 +1,8 @@
 #pragma once
 
-#include <alluvium/coupling/drag_law.h>
-#include <alluvium/coupling/drag_regularisation.h>
-#include <alluvium/coupling/time_scheme.h>
-#include <alluvium/fluid/vans_solver.h>
-
-#include <memory>
+#include <alluvium/coupling/coupled_solve.h>
+#include <alluvium/coupling/drag_range_record.h>
+#include <alluvium/coupling/grain_forces.h>
 
 namespace alluvium::coupling
 {
@@ -23,7 +20,7 @@ namespace alluvium::coupling
     double                torque_on_grains = 0., torque_on_fluid = 0.;
     std::array<double, 2> unseen_force = {{0., 0.}}; // sum of Coupling::unseen_force() [N/m]
     std::size_t           n_pieces     = 0;
-    unsigned int          n_iterations = 0;     // linear, over all sweeps, and of rebalance() before the step
+    unsigned int          n_iterations = 0;     // linear, over all solves, and of rebalance() before the step
     bool                  steady       = false; // nothing had changed: all is that of the step before
     unsigned int          n_loose      = 0;     // solves that stopped above the tolerance
     unsigned int          n_direct     = 0;     // solves by the direct solver, after all else had failed
@@ -106,11 +103,14 @@ namespace alluvium::coupling
     bool                   keeps_grain_velocity() const { return scheme_choice.get().keeps_grain_velocity(); }
 
     /**
-     * Solve the latest step's fluid again with what the grains made of its loads, @p answer, and what the fluid was
-     * when they did: both are combinations of those of the solves so far, with @p weights, the oldest first. The grains
-     * and contacts of step() must still be as they were. Fills @p loads. Collective.
+     * Solve the latest step's fluid again with what the grains made of its loads, @p corrected, and what the fluid was
+     * when they did: both are combinations of those of the solves so far, with @p weights, the oldest first. @p grains
+     * are those of step(), where they were. Fills @p loads. Collective.
      */
-    void repeat(const GrainMotion &answer, const std::vector<double> &weights, grains::GrainLoads &loads);
+    void repeat(const grains::GrainArrays &grains,
+                const GrainMotion         &corrected,
+                const std::vector<double> &weights,
+                grains::GrainLoads        &loads);
 
     /**
      * Per grain, what it got from the fluid in the latest step less what the fluid gave it, x and y one after the
@@ -118,10 +118,12 @@ namespace alluvium::coupling
      * saw. @p before are the grains' velocities at the beginning of the step [m/s], @p motion is what the loads
      * made of them.
      */
-    std::vector<double>
-    unseen_force(const grains::Components &before, const GrainMotion &motion, const grains::GrainLoads &loads) const;
+    std::vector<double> unseen_force(const grains::GrainArrays &grains,
+                                     const grains::Components  &before,
+                                     const GrainMotion         &motion,
+                                     const grains::GrainLoads  &loads) const;
     /** The mean reduced weight of a grain, or the mean force of the fluid on one, whichever is larger [N/m]. */
-    double typical_force() const;
+    double typical_force(const grains::GrainArrays &grains) const;
     /** Put the sum of unseen_force() into the report. */
     void set_unseen_force(const std::vector<double> &of_grains);
 
@@ -133,15 +135,18 @@ namespace alluvium::coupling
     const OverlapMap     &overlap() const { return map; }
     /** Force of the fluid on each grain in the last step, buoyancy of the hydrostatic pressure aside [N/m]; replicated.
      */
-    const std::vector<std::array<double, 2>> &fluid_force() const { return force; }
+    const std::vector<std::array<double, 2>> &fluid_force() const { return forces.force(); }
     /** The velocity v* that the fluid saw, averaged over each grain's pieces [m/s]; replicated. */
-    const std::vector<std::array<double, 2>> &predicted_velocity() const { return predicted; }
-    /** The same piece by piece, of this rank [m/s]: pieces of a grain differ where sweeps have not converged. */
+    const std::vector<std::array<double, 2>> &predicted_velocity() const { return forces.velocity(); }
+    /** The same piece by piece, of this rank [m/s]: pieces of a grain differ where solves have not converged. */
     std::vector<std::array<double, 2>> piece_velocities() const;
-    const DragLaw                     &drag_law() const { return drag_choice.get(); }
-    const std::string                 &drag_law_name() const { return drag_choice.name(); }
+    const DragLaw                     &drag_law() const { return solve.drag.law(); }
+    const std::string                 &drag_law_name() const { return solve.drag.law_name(); }
     /** Ids of the grains whose mean void fraction or Reynolds number has ever been outside the drag law's range. */
-    std::vector<grains::GrainId> outside_drag_range(const grains::GrainArrays &grains) const;
+    std::vector<grains::GrainId> outside_drag_range(const grains::GrainArrays &grains) const
+    {
+      return outside_range.ids(grains);
+    }
 
     OverlapSettings settings;
 
@@ -166,51 +171,27 @@ namespace alluvium::coupling
     static Inputs
     inputs_of(const grains::GrainArrays &grains, const std::vector<std::uint8_t> &touched, double dt, bool fixed);
 
-    void find_state(CouplingState &state);
-    /** Mass of all grains over their drag: how fast it brings grains and fluid together [s]. */
-    double relaxation_time(const CouplingState &state) const;
-    void   find_loads(const TimeScheme &scheme, const CouplingState &state, grains::GrainLoads &loads);
-    void   solve(const fluid::BoundaryConditions<dim> &boundary_conditions,
-                 const TimeScheme                     &scheme,
-                 fluid::VansProblem<dim>               problem,
-                 CouplingState                        &state);
-    void   find_drag(CouplingState &state);
-    void   find_acceleration(CouplingState &state) const;
-    void   look_at(const fluid::BlockVector &field, CouplingState &state) const;
-    void   find_torques(const CouplingState &state, grains::GrainLoads &loads);
-    /** From its grain to the image that was cut, for each piece [m]; with arms only. */
-    std::vector<std::array<double, 2>> periodic_shifts(const CouplingState &state) const;
-    void                               collect_forces(const CouplingState &state);
+    void count(const SolveCounts &counts);
+    void find_loads(const TimeScheme &scheme, const CouplingState &state, grains::GrainLoads &loads);
 
-    /** Velocity of a piece as the fluid saw it in the latest sweep [m/s], and the force density on it [N/m^3]. */
-    struct PieceForce
-    {
-      std::array<double, 2> velocity, force;
-    };
-    PieceForce piece_force(const CouplingState &state, const std::size_t k) const;
+    const fluid::FluidSpace<dim> *space;
+    fluid::VansSolver<dim>       *solver;
+    OverlapParameters             overlap_parameters;
+    PluginChoice<TimeScheme>      scheme_choice;
 
-    const fluid::FluidSpace<dim>    *space;
-    fluid::VansSolver<dim>          *solver;
-    PluginChoice<DragLaw>            drag_choice;
-    PluginChoice<TimeScheme>         scheme_choice;
-    PluginChoice<DragRegularisation> regularisation_choice;
-    OverlapParameters                overlap_parameters;
-    double                           added_mass = 0.;
-    bool                             rotation   = false;
+    OverlapMap      map;
+    fluid::Vector   eps;
+    CoupledSolve    solve;
+    GrainForces     forces;
+    DragRangeRecord outside_range;
 
-    OverlapMap                         map;
-    fluid::Vector                      eps;
-    fluid::BlockVector                 latest_sweep;
-    CouplingReport                     last, of_void_fraction;
-    CouplingReport                     of_rebalance; // solves for the report of the step that follows
-    Inputs                             last_inputs;
-    grains::GrainLoads                 last_loads;
-    bool                               still   = false; // the last step left the fluid as it was
-    bool                               resumes = false; // with a step that the uninterrupted run may not compute
-    std::unique_ptr<CouplingState>     latest_state;    // of the latest step; refers to its caller's grains
-    std::vector<fluid::BlockVector>    repeated_with;   // the solutions that a repeated step is made of
-    std::vector<std::array<double, 2>> force, predicted;
-    std::vector<double>                drag_means; // sums over each grain's pieces on this rank: A eps, A Re
-    std::vector<std::uint8_t>          outside;    // the drag law's range, at any time
+    CouplingReport     last, of_void_fraction;
+    SolveCounts        of_rebalance; // for the report of the step that follows
+    Inputs             last_inputs;
+    grains::GrainLoads last_loads;
+    bool               is_steady = false; // the last step left the fluid as it was
+    bool               resumes   = false; // with a step that the uninterrupted run may not compute
+    bool               has_step  = false; // since the grains were others
+    PieceState         pieces;            // of the latest step
   };
 } // namespace alluvium::coupling

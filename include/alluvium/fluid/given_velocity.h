@@ -27,7 +27,7 @@ namespace alluvium::fluid
      */
     void update(const FluidSpace<dim> &space, const BoundaryConditions<dim> &conditions, const Vector &void_fraction);
 
-    /** In the order of FluidSpace::inflow_faces(). */
+    /** In the order of BoundaryValues::inflow_faces(). */
     const std::vector<FaceFlux> &face_fluxes() const { return fluxes; }
     const NodeValues            &node_values() const { return values; }
 

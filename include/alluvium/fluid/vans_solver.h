@@ -140,12 +140,13 @@ namespace alluvium::fluid
     void                  solve_increment();
     std::array<double, 2> term_scale() const;
 
-    const FluidSpace<dim> *space;
-    VansProblem<dim>       current;
-    GivenVelocity<dim>     given;
-    Driving<dim>           driving;
-    dealii::Tensor<1, dim> latest_gradient;   // the background's in the latest step
-    bool                   has_begun = false; // a step
+    const FluidSpace<dim>       *space;
+    VansProblem<dim>             current;
+    std::unique_ptr<BlockVector> given_inertia; // that of the latest problem: it is looked at after the solve, too
+    GivenVelocity<dim>           given;
+    Driving<dim>                 driving;
+    dealii::Tensor<1, dim>       latest_gradient;   // the background's in the latest step
+    bool                         has_begun = false; // a step
 
     std::map<dealii::types::boundary_id, double> boundary_fluxes; // of the latest step
     BlockVector                                  iterate, previous, residual, known, increment, product;

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <alluvium/coupling/coupling_state.h>
+
+namespace alluvium::coupling
+{
+  /** Velocity of a piece as the fluid saw it in the latest solve [m/s], and the force density on it [N/m^3]. */
+  struct PieceForce
+  {
+    std::array<double, 2> velocity, force;
+  };
+
+  /** Of piece @p k with the exchange terms of @p map, from the fluid in @p state: see fluid::PieceExchange. */
+  PieceForce piece_force(const OverlapMap &map, const PieceState &state, const std::size_t k);
+} // namespace alluvium::coupling
