@@ -83,7 +83,7 @@ namespace alluvium::coupling
 
     // what leaves through a boundary is no residual
     for (const auto &boundary : boundary_conditions.all())
-      for (const auto &[c, weight] : space.weights_at(boundary.first))
+      for (const auto &[c, weight] : space.boundary().weights_at(boundary.first))
         for (unsigned int v = 0; v < space.n_nodes_per_cell(); ++v)
           if (const unsigned int node = space.cells()[c].node[v];
               weight[v] > 0. && node < sums.residual.locally_owned_size())

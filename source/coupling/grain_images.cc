@@ -13,7 +13,7 @@ namespace alluvium::coupling
   GrainImages::GrainImages(const std::vector<double>                &grain_x,
                            const std::vector<double>                &grain_y,
                            const double                              reach,
-                           const fluid::FluidSpace<2>::PeriodicBox  &box,
+                           const fluid::PeriodicBox<2>              &box,
                            const std::array<std::vector<double>, 2> &mirrors)
     : x(grain_x)
     , y(grain_y)

@@ -1,6 +1,6 @@
 #include <alluvium/fluid/boundary_nodes.h>
+#include <alluvium/fluid/boundary_values.h>
 #include <alluvium/fluid/cell_order.h>
-#include <alluvium/fluid/fluid_space.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -90,7 +90,9 @@ namespace alluvium::fluid
 
 
   template <int dim>
-  BoundaryNodes<dim>::BoundaryNodes(const FluidSpace<dim> &space, const BoundaryConditions<dim> &boundary_conditions)
+  BoundaryNodes<dim>::BoundaryNodes(const FluidDofs<dim>          &space,
+                                    const BoundaryValues<dim>     &values,
+                                    const BoundaryConditions<dim> &boundary_conditions)
   {
     for (const auto &[id, condition] : boundary_conditions.all())
       on_boundary[id]; // also where this rank has none of it
@@ -131,7 +133,7 @@ namespace alluvium::fluid
                       vertex[e] = v; // nodes are vertices
                 }
               const double length = end[0].distance(end[1]);
-              for (const auto &part : space.divide_face(id, end[0], end[1]))
+              for (const auto &part : values.divide_face(id, end[0], end[1]))
                 {
                   const auto &condition = boundary_conditions.all().at(part.id);
                   for (unsigned int e = 0; e < 2; ++e)

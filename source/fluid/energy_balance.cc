@@ -238,7 +238,7 @@ namespace alluvium::fluid
           add_cell(state, state.values(solution), sum);
         }
       const auto backflow = backflow_shares(space, problem);
-      for (const auto &face : space.open_faces())
+      for (const auto &face : space.boundary().open_faces())
         {
           state.reinit(face.cell);
           add_open(state, face, backflow.at(face.boundary), state.values(solution), sum);

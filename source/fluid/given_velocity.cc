@@ -98,10 +98,10 @@ namespace alluvium::fluid
     };
     moments.clear();
     of_formula.clear();
-    const auto                                       &nodes = space.inflow_nodes();
+    const auto                                       &nodes = space.boundary().inflow_nodes();
     std::map<types::global_dof_index, Tensor<1, dim>> carried; // by the node's shape function [m^2/s]
     std::map<types::global_dof_index, bool>           resolved;
-    for (const InflowFace<dim> &face : space.inflow_faces())
+    for (const InflowFace<dim> &face : space.boundary().inflow_faces())
       {
         const auto &condition = conditions.all().at(face.boundary);
         const auto  velocity  = [&](const double s) {
@@ -146,7 +146,7 @@ namespace alluvium::fluid
     known                    = true;
     time                     = conditions.current_time();
     const bool  interstitial = conditions.velocity_is_interstitial();
-    const auto &faces        = space.inflow_faces();
+    const auto &faces        = space.boundary().inflow_faces();
     fluxes.resize(faces.size());
     for (std::size_t i = 0; i < faces.size(); ++i)
       {
@@ -170,7 +170,7 @@ namespace alluvium::fluid
     for (const auto &[id, condition] : conditions.all())
       if (condition.kind == BoundaryConditions<dim>::Kind::velocity)
         result[id] = 0.;
-    const auto &faces = space.inflow_faces();
+    const auto &faces = space.boundary().inflow_faces();
     for (std::size_t i = 0; i < fluxes.size(); ++i)
       if (faces[i].owned)
         result[faces[i].boundary] += fluxes[i][0] + fluxes[i][1];

@@ -74,9 +74,9 @@ namespace alluvium::fluid
     template <int dim>
     std::map<types::boundary_id, Inflow> inflows(const FluidSpace<dim> &space, const BlockVector &field)
     {
-      const std::vector<types::boundary_id> &ids = space.open_boundaries();
+      const std::vector<types::boundary_id> &ids = space.boundary().open_boundaries();
       std::vector<double>                    sums(3 * ids.size(), 0.);
-      for (const auto &face : space.open_faces())
+      for (const auto &face : space.boundary().open_faces())
         {
           const CellData<dim> &cell = space.cells()[face.cell];
           const auto           i    = std::lower_bound(ids.begin(), ids.end(), face.boundary) - ids.begin();
@@ -108,7 +108,7 @@ namespace alluvium::fluid
     std::map<types::boundary_id, double> shares;
     if (!problem.discretisation.convection)
       {
-        for (const auto id : space.open_boundaries())
+        for (const auto id : space.boundary().open_boundaries())
           shares[id] = 0.;
         return shares;
       }

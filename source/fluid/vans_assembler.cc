@@ -133,7 +133,7 @@ namespace alluvium::fluid
             constraints.distribute_local_to_global(local_known, local_dofs, known);
         }
       const auto backflow = backflow_shares(*space, problem);
-      for (const auto &face : space->open_faces())
+      for (const auto &face : space->boundary().open_faces())
         {
           const CellData<dim> &cell = space->cells()[face.cell];
           state.reinit(face.cell);
@@ -156,9 +156,9 @@ namespace alluvium::fluid
           constraints.distribute_local_to_global(local_residual, local_dofs, residual);
         }
       // the boundary term of the continuity equation where the velocity is given
-      for (std::size_t i = 0; problem.given_fluxes && i < space->inflow_faces().size(); ++i)
+      for (std::size_t i = 0; problem.given_fluxes && i < space->boundary().inflow_faces().size(); ++i)
         {
-          const InflowFace<dim> &face = space->inflow_faces()[i];
+          const InflowFace<dim> &face = space->boundary().inflow_faces()[i];
           if (!face.owned)
             continue;
           const CellData<dim> &cell = space->cells()[face.cell];
@@ -217,7 +217,7 @@ namespace alluvium::fluid
       constexpr unsigned int n = K::n_local;
       typename K::Matrix     L;
       typename K::Values     b;
-      for (const auto &[i, weight] : space->weights_at(id))
+      for (const auto &[i, weight] : space->boundary().weights_at(id))
         {
           state.reinit(i);
           fill_matrix(state, L);
@@ -236,10 +236,10 @@ namespace alluvium::fluid
         }
     });
     // what comes in where the velocity is given close by
-    const auto &weights = space->weights_at(id);
-    for (std::size_t i = 0; problem.given_fluxes && i < space->inflow_faces().size(); ++i)
+    const auto &weights = space->boundary().weights_at(id);
+    for (std::size_t i = 0; problem.given_fluxes && i < space->boundary().inflow_faces().size(); ++i)
       {
-        const InflowFace<dim> &face = space->inflow_faces()[i];
+        const InflowFace<dim> &face = space->boundary().inflow_faces()[i];
         const auto             w    = std::lower_bound(
           weights.begin(), weights.end(), face.cell, [](const auto &w, const unsigned int c) { return w.cell < c; });
         if (face.owned && w != weights.end() && w->cell == face.cell)

@@ -85,7 +85,7 @@ namespace alluvium::fluid
   template <int dim>
   void VansSolver<dim>::choose_datum(const BoundaryConditions<dim> &boundary_conditions)
   {
-    pressure_datum = space->pressure_datum(boundary_conditions, background_gradient());
+    pressure_datum = space->boundary().pressure_datum(boundary_conditions, background_gradient());
   }
 
 
@@ -123,12 +123,12 @@ namespace alluvium::fluid
                                             const Vector                  &void_fraction)
   {
     update_given(boundary_conditions, void_fraction);
-    const bool same_values = space->has_boundary_values(boundary_conditions,
-                                                        background_gradient(),
-                                                        pressure_datum,
-                                                        pressure_deficits(boundary_conditions, iterate),
-                                                        given.node_values(),
-                                                        iterate);
+    const bool same_values = space->boundary().has_boundary_values(boundary_conditions,
+                                                                   background_gradient(),
+                                                                   pressure_datum,
+                                                                   pressure_deficits(boundary_conditions, iterate),
+                                                                   given.node_values(),
+                                                                   iterate);
     return same_values && (!has_begun || (drive() == current.drive && background_gradient() == latest_gradient));
   }
 
@@ -164,12 +164,12 @@ namespace alluvium::fluid
     latest_gradient      = background_gradient();
     has_begun            = true;
     boundary_fluxes      = given.boundary_fluxes(*space, boundary_conditions);
-    space->apply_boundary_values(boundary_conditions,
-                                 background_gradient(),
-                                 pressure_datum,
-                                 pressure_deficits(boundary_conditions, previous),
-                                 given.node_values(),
-                                 iterate);
+    space->boundary().apply_boundary_values(boundary_conditions,
+                                            background_gradient(),
+                                            pressure_datum,
+                                            pressure_deficits(boundary_conditions, previous),
+                                            given.node_values(),
+                                            iterate);
   }
 
 

@@ -109,7 +109,7 @@ namespace alluvium::observers
           ++index;
         }
     if (Utilities::MPI::sum(sum[1], space.communicator()) == 0.) // a part of a side, known by its nodes only
-      for (const auto &[i, weight] : space.weights_at(id))
+      for (const auto &[i, weight] : space.boundary().weights_at(id))
         for (unsigned int v = 0; v < space.n_nodes_per_cell(); ++v)
           if (weight[v] > 0.)
             add(i, v, weight[v]);

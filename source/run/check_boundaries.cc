@@ -51,7 +51,7 @@ namespace alluvium::run
           if (flux != 0. || !(c.may_depend_on("x") || c.may_depend_on("y")) || c.may_depend_on("t"))
             continue;
           double largest = 0.;
-          for (const auto &face : m.space.inflow_faces())
+          for (const auto &face : m.space.boundary().inflow_faces())
             if (face.boundary == id)
               for (unsigned int i = 0; i <= 100; ++i)
                 {
@@ -83,7 +83,7 @@ namespace alluvium::run
             if (cell->is_locally_owned() && cell->at_boundary())
               for (const unsigned int f : cell->face_indices())
                 if (cell->face(f)->at_boundary())
-                  for (const auto &part : m.space.divide_face(
+                  for (const auto &part : m.space.boundary().divide_face(
                          cell->face(f)->boundary_id(), cell->face(f)->vertex(0), cell->face(f)->vertex(1)))
                     if (part.id == id)
                       for (const double s : {part.begin, part.end})

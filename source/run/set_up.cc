@@ -90,7 +90,7 @@ namespace alluvium::run
       m.boundary_conditions.initialize(m.domain.boundary_ids(), constants);
       const auto periodicity = m.domain.periodicity();
       m.space.set_periodic_box({periodicity.lower, periodicity.length});
-      m.space.set_boundary_parts(m.domain.parts());
+      m.space.boundary().set_parts(m.domain.parts());
       m.solver.initialize_driving(constants);
       attach_mesh(m, std::move(mesh));
       m.solver.choose_datum(m.boundary_conditions);

@@ -98,7 +98,7 @@ namespace alluvium::run
               continue;
             const Point<Model::dim> a = cell->face(f)->vertex(0), b = cell->face(f)->vertex(1);
             bool                    pressure = false, velocity = false;
-            for (const auto &part : m.space.divide_face(id, a, b))
+            for (const auto &part : m.space.boundary().divide_face(id, a, b))
               {
                 pressure = pressure || conditions.at(part.id).kind == Kind::pressure;
                 velocity = velocity || conditions.at(part.id).kind == Kind::velocity;
@@ -196,7 +196,7 @@ namespace alluvium::run
     const auto *given = m.solver.problem().given_fluxes;
     for (std::size_t i = 0; given && i < given->size(); ++i)
       {
-        const auto &face = m.space.inflow_faces()[i];
+        const auto &face = m.space.boundary().inflow_faces()[i];
         if (!face.owned)
           continue;
         const double width = face.length() * (face.to - face.from), in = -(*given)[i][0] - (*given)[i][1];

@@ -49,7 +49,7 @@ namespace
         ids[part.name] = part.id;
       conditions.initialize(ids, {});
       space.attach(mesh);
-      space.set_boundary_parts(parts);
+      space.boundary().set_parts(parts);
       space.reinit(conditions);
       solver                          = std::make_unique<VansSolver<dim>>(space);
       solver->properties              = {1000., 1e-3};

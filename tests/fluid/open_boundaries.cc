@@ -316,7 +316,7 @@ TEST_P(OpenBoundaries, VortexLeaves)
           exchanged += b.largest();
         }
       before = b.kinetic_energy;
-      for (const auto &face : c.space.open_faces())
+      for (const auto &face : c.space.boundary().open_faces())
         for (unsigned int v = 0; v < c.space.n_nodes_per_cell(); ++v)
           backflow =
             std::max(backflow, -c.solver->solution().block(0).local_element(c.space.cells()[face.cell].velocity[v][1]));

@@ -18,7 +18,7 @@ namespace alluvium::coupling
     GrainImages(const std::vector<double>                &grain_x,
                 const std::vector<double>                &grain_y,
                 const double                              reach,
-                const fluid::FluidSpace<2>::PeriodicBox  &box,
+                const fluid::PeriodicBox<2>              &box,
                 const std::array<std::vector<double>, 2> &mirrors);
 
     std::size_t n() const { return x.size(); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <alluvium/fluid/boundary_conditions.h>
+#include <alluvium/fluid/fluid_dofs.h>
 #include <alluvium/fluid/interphase.h>
 
 #include <deal.II/lac/affine_constraints.h>
@@ -12,7 +13,7 @@
 namespace alluvium::fluid
 {
   template <int dim>
-  class FluidSpace;
+  class BoundaryValues;
 
   /** A dof whose value a boundary condition gives: a component of the boundary's function at a point. */
   template <int dim>
@@ -77,8 +78,10 @@ namespace alluvium::fluid
   class BoundaryNodes
   {
   public:
-    /** Of the cells that this rank knows; @p space must have its dofs and hanging nodes. */
-    BoundaryNodes(const FluidSpace<dim> &space, const BoundaryConditions<dim> &boundary_conditions);
+    /** Of the cells that this rank knows; @p values divides their faces. */
+    BoundaryNodes(const FluidDofs<dim>          &space,
+                  const BoundaryValues<dim>     &values,
+                  const BoundaryConditions<dim> &boundary_conditions);
 
     /**
      * Add homogeneous constraints to @p constraints, where @p hanging has none.

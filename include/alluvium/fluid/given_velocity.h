@@ -16,7 +16,7 @@ namespace alluvium::fluid
   public:
     /** Flux out of the domain against the shape function of each end of a face [m^2/s]. */
     using FaceFlux   = std::array<double, 2>;
-    using NodeValues = typename FluidSpace<dim>::GivenVelocities;
+    using NodeValues = typename BoundaryValues<dim>::GivenVelocities;
 
     /** Nothing that was found holds any longer: the space has been rebuilt. */
     void clear() { known = false; }
