@@ -3,9 +3,8 @@
 namespace alluvium::fluid
 {
   template <int dim>
-  void FluidSpace<dim>::reinit(const BoundaryConditions<dim> &boundary_conditions)
+  void FluidSpace<dim>::build_on_numbers(const BoundaryConditions<dim> &boundary_conditions)
   {
-    FluidDofs<dim>::reinit();
     boundary_values.reinit(*this, boundary_conditions);
     cache.reinit(*this, boundary_values.constraints());
   }

@@ -10,12 +10,20 @@ namespace alluvium::run
 {
   namespace
   {
+    /** All but the numbers of the unknowns that depends on the mesh: matrix, cells, pieces. */
+    void build_on_numbers(Model &m)
+    {
+      m.space.build_on_numbers(m.boundary_conditions);
+      m.solver.reinit();
+      m.coupling.reinit();
+    }
+
+
     /** What depends on the mesh, for the mesh as it is now. */
     void reinit(Model &m)
     {
-      m.space.reinit(m.boundary_conditions);
-      m.solver.reinit();
-      m.coupling.reinit();
+      m.space.number();
+      build_on_numbers(m);
     }
   } // namespace
 
@@ -71,7 +79,8 @@ namespace alluvium::run
     auto                         context = m.refinement_context();
     context.fluid                        = &fluid_state;
     count_cell_weights(m);
-    const auto report = m.adaptivity.adapt(
+    unsigned int n_rounds = 0;
+    const auto   report   = m.adaptivity.adapt(
       *m.triangulation,
       context,
       [&] {
@@ -80,17 +89,26 @@ namespace alluvium::run
             change.before         = totals_now(m);
             change.n_cells_before = m.triangulation->n_global_active_cells();
           }
-        m.transfer->prepare({&m.solver.solution(), &m.solver.old()});
+        if (n_rounds == 0)
+          m.transfer->prepare({&m.solver.solution(), &m.solver.old()});
+        else
+          m.transfer->prepare({&field, &before});
       },
       [&] {
-        reinit(m);
+        // a round needs numbers only, for the fields; what else there is on the mesh waits for the last one
+        m.space.number();
         m.space.reinit_field(field);
         m.space.reinit_field(before);
         m.transfer->interpolate({&field, &before}, m.space.hanging_constraints(), {}, m.space.nodal_constraints());
+        m.counts["mesh adaptations"] += 1;
+        ++n_rounds;
+      });
+    if (n_rounds > 0)
+      {
+        build_on_numbers(m);
         m.solver.set_solution(field);
         m.solver.old() = before;
-        m.counts["mesh adaptations"] += 1;
-      });
+      }
     if (report.changed && m.n_steps > 0)
       {
         m.solver.set_solution(field);

@@ -17,8 +17,18 @@ namespace alluvium::fluid
     FluidSpace() = default;
     explicit FluidSpace(const dealii::Triangulation<dim> &triangulation) { this->attach(triangulation); }
 
-    /** Number the unknowns anew; call after the mesh or the kinds of boundary conditions changed. Collective. */
-    void reinit(const BoundaryConditions<dim> &boundary_conditions);
+    /** Call after the mesh or the kinds of boundary conditions changed; it is the two calls below. Collective. */
+    void reinit(const BoundaryConditions<dim> &boundary_conditions)
+    {
+      number();
+      build_on_numbers(boundary_conditions);
+    }
+
+    /** Number the unknowns anew, for the mesh as it is: enough to carry fields from mesh to mesh. Collective. */
+    void number() { FluidDofs<dim>::reinit(); }
+
+    /** Find boundary values and cells for these numbers. Collective. */
+    void build_on_numbers(const BoundaryConditions<dim> &boundary_conditions);
 
     BoundaryValues<dim>       &boundary() { return boundary_values; }
     const BoundaryValues<dim> &boundary() const { return boundary_values; }
