@@ -12,7 +12,7 @@ foreach(_set "mesh:*:2:two" "refinement:*:2:two" "fluid:*Checkpoint*:2:two_check
     add_test(NAME ${_room}.on_${_name}_ranks
              COMMAND ${ALLUVIUM_MPIEXEC} -np ${_n} $<TARGET_FILE:test_${_room}> --gtest_filter=${_filter})
     # for Open MPI, as root and on small machines
-    set_tests_properties(${_room}.on_${_name}_ranks PROPERTIES TIMEOUT ${_time_limit} PROCESSORS 2 ENVIRONMENT
+    set_tests_properties(${_room}.on_${_name}_ranks PROPERTIES TIMEOUT ${_time_limit} PROCESSORS 2 LABELS "unit;mpi" ENVIRONMENT
       "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_mpi_yield_when_idle=1")
   endif()
 endforeach()

@@ -1,6 +1,7 @@
 #!/bin/bash
 # Time step = auto: the error follows the tolerance over three decades, beside a reference in short steps; steps end where rows are due
 # and where a given function jumps; a step that is too long is taken back; a fixed step has no such columns; a word is refused.
+# SLOW
 . "$SCENES/functions"
 scene_from layer <<'END'
 subsection Time

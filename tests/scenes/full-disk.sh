@@ -1,6 +1,7 @@
 #!/bin/bash
 # A disk that fills up at any write ends the run with one message and exit code 1, and nothing is listed that is not whole. Needs root, for a
 # small tmpfs; others run it with a limit of the size of files.
+# SLOW
 . "$SCENES/functions"
 scene_from tiny <<END
 subsection Mesh refinement

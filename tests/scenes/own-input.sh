@@ -1,5 +1,6 @@
 #!/bin/bash
 # A run never replaces what it reads: its parameter file, the run whose grains it starts with, whatever way their paths are written.
+# SLOW
 . "$SCENES/functions"
 scene_from tiny </dev/null
 must_run 1 tiny.prm --set 'Fluid/Model=none' --set 'Output/Output folder=dry'

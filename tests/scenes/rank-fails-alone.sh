@@ -1,6 +1,7 @@
 #!/bin/bash
 # One of two ranks has an error that the other does not know of and waits for it: the run ends all the same, says on which rank it was,
 # and leaves its summary and a checkpoint to go on from.
+# SLOW
 . "$SCENES/functions"
 scene_from bed <<END
 set Additional shared libraries = $TEST_PLUGINS

@@ -1,5 +1,6 @@
 #!/bin/bash
 # Walls that move or vanish at given times: a gate that is lifted, one that is taken away, a side that opens; on ranks, over restarts.
+# SLOW
 . "$SCENES/functions"
 scene_from dry-bed <<'END'
 subsection Time
