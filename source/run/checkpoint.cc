@@ -76,19 +76,9 @@ namespace alluvium::run
         write_checked_file(m.communicator, folder_new + "/" + solver_file, solver_file, of_all.bytes);
       }
     write_checked_file(m.communicator, folder_new + "/" + history_file, history_file, history.bytes);
-    state["time"]          = m.time;
-    state["steps"]         = m.n_steps;
-    state["clock"]         = {m.clock.since, m.clock.n_steps, m.clock.dt};
-    state["ranks"]         = Utilities::MPI::n_mpi_processes(m.communicator);
-    state["datum"]         = m.solver.datum();
-    state["counts"]        = m.counts;
-    state["coarse size"]   = m.coarse_size;
-    state["never refines"] = m.never_refines;
-    for (const auto &[side, d] : m.leavers.by_side)
-      state["grains that left"][side] = {d.n, d.mass, d.momentum[0], d.momentum[1]};
-    state["initial diameter"] = m.initial_diameter;
-    for (const auto &c : m.initial_bed.columns)
-      state["initial bed"].push_back({c.left, c.right, c.bottom, c.top});
+    m.State::save(state);
+    state["ranks"] = Utilities::MPI::n_mpi_processes(m.communicator);
+    state["datum"] = m.solver.datum();
     for (const auto &[name, value] : m.parameters)
       state["parameters"][name] = value;
     if (m.speaks)
@@ -190,24 +180,9 @@ namespace alluvium::run
       }
     m.contacts.set_archive(archive);
     read([&] {
-      m.time             = state.at("time");
-      m.n_steps          = state.at("steps");
-      const auto &clock  = state.at("clock");
-      m.clock            = {clock.at(0).get<double>(), clock.at(1).get<unsigned int>(), clock.at(2).get<double>()};
-      m.counts           = state.at("counts").get<decltype(m.counts)>();
-      m.coarse_size      = state.at("coarse size");
-      m.never_refines    = state.at("never refines");
-      m.initial_diameter = state.value("initial diameter", grains::mean_diameter(m.grains)); // older ones have none
-      m.initial_bed.columns.clear();
-      if (state.contains("initial bed"))
-        for (const auto &c : state.at("initial bed"))
-          m.initial_bed.columns.push_back(
-            {c.at(0).get<double>(), c.at(1).get<double>(), c.at(2).get<double>(), c.at(3).get<double>()});
-      m.leavers.by_side.clear();
-      if (state.contains("grains that left"))
-        for (const auto &[side, d] : state.at("grains that left").items())
-          m.leavers.by_side[side] = {
-            d.at(0).get<unsigned long>(), d.at(1).get<double>(), {{d.at(2).get<double>(), d.at(3).get<double>()}}};
+      m.State::load(state);
+      if (m.initial_diameter == 0.)
+        m.initial_diameter = grains::mean_diameter(m.grains);
       if (m.clock.dt != m.time_step)
         m.clock = {m.time, m.n_steps, m.time_step};
 

@@ -75,4 +75,14 @@ namespace alluvium::run
     context.gravity = gravity_size();
     return context;
   }
+
+
+  void Model::drop_caches()
+  {
+    contacts.forget_search();
+    if (!has_fluid)
+      return;
+    solver.linear_solver.clear();
+    coupling.reinit();
+  }
 } // namespace alluvium::run

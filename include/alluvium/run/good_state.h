@@ -3,15 +3,12 @@
 #include <alluvium/contacts/search/contact_archive.h>
 #include <alluvium/fluid/fluid_space.h>
 #include <alluvium/grains/grain_arrays.h>
-#include <alluvium/grains/leavers.h>
+#include <alluvium/run/state.h>
 
 #include <nlohmann/json.hpp>
 
-#include <cstdint>
 #include <functional>
-#include <map>
 #include <string>
-#include <vector>
 
 namespace alluvium::run
 {
@@ -29,8 +26,8 @@ namespace alluvium::run
     void forget() { exists = false; }
 
     bool         is_there() const { return exists; }
-    double       time() const { return at_time; }
-    unsigned int n_steps() const { return at_step; }
+    double       time() const { return state.time; }
+    unsigned int n_steps() const { return state.n_steps; }
 
     /**
      * Write it as the checkpoint @p folder. @p model is left with this state; contacts remember the impulses of then.
@@ -39,15 +36,11 @@ namespace alluvium::run
     void write(const std::string &folder, Model &model);
 
   private:
-    bool                          exists  = false;
-    double                        at_time = 0.;
-    unsigned int                  at_step = 0;
-    fluid::BlockVector            field, before;
-    grains::GrainArrays           grains;
-    std::vector<std::uint8_t>     touched;
-    contacts::ContactArchive      contacts;
-    grains::Leavers               leavers;
-    std::map<std::string, double> counts;
-    nlohmann::ordered_json        more;
+    bool                     exists = false;
+    State                    state;
+    fluid::BlockVector       field, before;
+    grains::GrainArrays      grains;
+    contacts::ContactArchive contacts;
+    nlohmann::ordered_json   more;
   };
 } // namespace alluvium::run

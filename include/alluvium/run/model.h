@@ -6,18 +6,16 @@
 #include <alluvium/fluid/boundary_conditions.h>
 #include <alluvium/fluid/field_transfer.h>
 #include <alluvium/fluid/vans_solver.h>
-#include <alluvium/grains/bed_faces.h>
 #include <alluvium/grains/grain_store.h>
-#include <alluvium/grains/leavers.h>
 #include <alluvium/mesh/domain.h>
 #include <alluvium/observers/mesh_change.h>
 #include <alluvium/observers/time_step_choice.h>
 #include <alluvium/refinement/adaptivity.h>
 #include <alluvium/run/grain_setup.h>
+#include <alluvium/run/state.h>
 #include <alluvium/utilities/timers.h>
 #include <alluvium/utilities/warnings.h>
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,21 +23,11 @@
 
 namespace alluvium::run
 {
-  /** Time as a multiple of the time step, counted from where a restart changed that: sums would gather round-off. */
-  struct Clock
-  {
-    double       since   = 0.; // [s]
-    unsigned int n_steps = 0;  // then
-    double       dt      = 0.; // since then [s]
-
-    double at(const unsigned int n) const { return since + (n - n_steps) * dt; }
-  };
-
   /**
    * What a run computes with: the rooms that take part, and the state that they advance. It decides nothing; set_up()
    * fills it, Simulation::Implementation::step() moves it on. The fluid's rooms stay empty in a dry scene.
    */
-  struct Model
+  struct Model : State
   {
     static constexpr int dim = 2;
 
@@ -82,20 +70,10 @@ namespace alluvium::run
     coupling::ContactIteration                       contact_iteration;
     std::unique_ptr<fluid::FieldTransfer<dim>>       transfer;
 
-    // the state
-    grains::GrainArrays          &grains = store.grains();
-    grains::GrainLoads            loads;
-    std::vector<std::uint8_t>     touched; // by others in the last step
-    contacts::ContactReport       contact_report;
-    grains::Leavers               leavers;
-    grains::BedFaces              initial_bed;
-    double                        initial_diameter = 0.; // mean of the grains at t = 0, `d` in formulas [m]
-    double                        time             = 0.; // [s]
-    unsigned int                  n_steps          = 0;
-    Clock                         clock;
-    double                        coarse_size   = 0.;    // cells of the unrefined mesh [m]
-    bool                          never_refines = false; // the mesh stays as it was made
-    std::map<std::string, double> counts;                // steps, sweeps, iterations ...
+    // of the latest step
+    grains::GrainArrays    &grains = store.grains();
+    grains::GrainLoads      loads;
+    contacts::ContactReport contact_report;
 
     bool                                 watches_mesh_changes = false; // does an observer want to know of them?
     std::optional<observers::MeshChange> mesh_change;                  // the latest, if so
@@ -103,6 +81,9 @@ namespace alluvium::run
     std::optional<observers::TimeStepChoice> time_step_choice; // of the latest step, where the program chooses
 
     std::vector<std::pair<std::string, std::string>> parameters; // all of them as used; a checkpoint keeps them
+
+    /** Forget what modules keep of earlier steps because it saves work: the next step finds it anew. Collective. */
+    void drop_caches();
 
     /** Gravity and the kind of fluid are written as text: make them what they mean. After parsing. */
     void parse_parameters();
