@@ -61,8 +61,7 @@ namespace alluvium::coupling
     spin.resize(map->arms().size());
     for (std::size_t k = 0; k < spin.size(); ++k)
       spin[k] = {map->arms()[k].moments, map->arms()[k].arm, state.gamma[k]};
-    if (added_mass > 0.)
-      find_acceleration(state);
+    find_acceleration(state);
   }
 
 

@@ -1,16 +1,11 @@
 #include <alluvium/coupling/drag_range_record.h>
+#include <alluvium/grains/leavers.h>
 
 namespace alluvium::coupling
 {
   void DragRangeRecord::remove_grains(const std::vector<std::uint8_t> &keep)
   {
-    if (outside.size() != keep.size())
-      return;
-    std::size_t n = 0;
-    for (std::size_t g = 0; g < keep.size(); ++g)
-      if (keep[g])
-        outside[n++] = outside[g];
-    outside.resize(n);
+    grains::keep_some(outside, keep);
   }
 
 

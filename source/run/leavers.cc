@@ -12,18 +12,6 @@ namespace alluvium::run
 {
   namespace
   {
-    template <typename T>
-    void keep_some(std::vector<T> &values, const std::vector<std::uint8_t> &keep)
-    {
-      if (values.size() != keep.size())
-        return;
-      std::size_t n = 0;
-      for (std::size_t i = 0; i < keep.size(); ++i)
-        if (keep[i])
-          values[n++] = values[i];
-      values.resize(n);
-    }
-
     std::vector<std::string> sides_left_through(const Model &m)
     {
       std::vector<std::string> result(m.grains.n());
@@ -69,9 +57,9 @@ namespace alluvium::run
     if (std::all_of(keep.begin(), keep.end(), [](const auto k) { return k != 0; }))
       return false;
     auto &g = m.grains;
-    keep_some(g.id, keep);
-    grains::for_each_column(g, [&](auto &values, const grains::GrainColumn &) { keep_some(values, keep); });
-    keep_some(m.touched, keep);
+    grains::keep_some(g.id, keep);
+    grains::for_each_column(g, [&](auto &values, const grains::GrainColumn &) { grains::keep_some(values, keep); });
+    grains::keep_some(m.touched, keep);
     m.loads.reset(g.n());
     m.contacts.set_archive(m.contacts.archive()); // to be searched anew
     if (m.has_fluid)

@@ -84,15 +84,17 @@ namespace alluvium::run
       *m.triangulation,
       context,
       [&] {
-        if (m.watches_mesh_changes && change.n_cells_before == 0)
+        if (n_rounds > 0)
+          {
+            m.transfer->prepare({&field, &before});
+            return;
+          }
+        if (m.watches_mesh_changes)
           {
             change.before         = totals_now(m);
             change.n_cells_before = m.triangulation->n_global_active_cells();
           }
-        if (n_rounds == 0)
-          m.transfer->prepare({&m.solver.solution(), &m.solver.old()});
-        else
-          m.transfer->prepare({&field, &before});
+        m.transfer->prepare({&m.solver.solution(), &m.solver.old()});
       },
       [&] {
         // a round needs numbers only, for the fields; what else there is on the mesh waits for the last one

@@ -36,7 +36,7 @@ namespace alluvium::coupling
     /** Find the fluid of t^n at all pieces of @p state, their drag and, where it is on, their added mass. */
     void prepare(CouplingState &state);
 
-    /** Find the added mass's terms anew, for another time step. */
+    /** Find the added mass's terms anew, for another time step; there are none where it is off. */
     void find_acceleration(CouplingState &state) const;
 
     /**

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace alluvium::grains
 {
@@ -32,4 +34,18 @@ namespace alluvium::grains
       return sum;
     }
   };
+
+  /** Of @p values, one per grain, leave those that @p keep says; nothing happens where there are none, or not as many.
+   */
+  template <typename T>
+  void keep_some(std::vector<T> &values, const std::vector<std::uint8_t> &keep)
+  {
+    if (values.size() != keep.size())
+      return;
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < keep.size(); ++i)
+      if (keep[i])
+        values[n++] = values[i];
+    values.resize(n);
+  }
 } // namespace alluvium::grains
