@@ -38,6 +38,20 @@ def program() -> str:
     return found
 
 
+def command(scene: str, settings: Mapping[str, Value], folder: str, ranks: int = 1, alluvium: Optional[str] = None) -> list[str]:
+    """What runs a scene with settings ('Section/Name': value) into a folder, in silence."""
+    words = ["mpirun", "-np", str(ranks)] if ranks > 1 else []
+    words += [alluvium or program(), scene]
+    for name, value in {**settings, "Output/Output folder": folder, "Output/Overwrite output folder": True, "Output/Progress": "silent"}.items():
+        words += ["--set", "%s=%s" % (name, _text(value))]
+    return words
+
+
+def environment() -> dict[str, str]:
+    """One thread a rank, unless somebody wants otherwise."""
+    return {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", **os.environ}
+
+
 def execute(scene: str, settings: Mapping[str, Value], folder: str, ranks: int = 1, alluvium: Optional[str] = None) -> Point:
     """Run a scene with settings ('Section/Name': value) into a folder, unless it holds a finished run of just that."""
     with open(scene, "rb") as file:
@@ -50,13 +64,8 @@ def execute(scene: str, settings: Mapping[str, Value], folder: str, ranks: int =
             return Point(dict(settings), Run(folder))
         os.remove(recipe_file)
 
-    command = ["mpirun", "-np", str(ranks)] if ranks > 1 else []
-    command += [alluvium or program(), scene]
-    for name, value in {**settings, "Output/Output folder": folder, "Output/Overwrite output folder": True, "Output/Progress": "silent"}.items():
-        command += ["--set", "%s=%s" % (name, _text(value))]
-    # one thread a rank, unless somebody wants otherwise
-    environment = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", **os.environ}
-    result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True, env=environment)
+    result = subprocess.run(command(scene, settings, folder, ranks, alluvium), stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
+                            text=True, env=environment())
     if result.returncode != 0:
         return Point(dict(settings), None, result.stderr.strip())
     with open(recipe_file, "w") as file:

@@ -1,0 +1,161 @@
+"""Pages of studies, the page of all of them, and the report."""
+
+import base64
+import html
+import os
+import platform
+import re
+import subprocess
+
+from . import ROOT
+from .study import number, percent
+
+TARGETS = (0.1, 0.01, 0.001)
+MARKS = "<!-- studies: contrib/lab index -->", "<!-- end of studies -->"
+
+
+def hardware():
+    """A line on the machine."""
+    model = platform.processor() or platform.machine()
+    try:
+        with open("/proc/cpuinfo") as file:
+            model = re.search(r"model name\s*: (.*)", file.read())[1]
+    except (OSError, TypeError):
+        pass
+    return "%s, %d cores" % (" ".join(model.split()), os.cpu_count())
+
+
+def libraries(alluvium):
+    """What the program says it was linked with, in one line."""
+    lines = subprocess.run([alluvium, "--version"], capture_output=True, text=True, env={**os.environ, "OMP_NUM_THREADS": "1"}).stdout.splitlines()
+    return ", ".join(" ".join(line.split()) for line in lines[1:] if line.strip())
+
+
+def commands(study):
+    return "contrib/lab %s" % study.name
+
+
+def accuracy_table(study, results):
+    """For 10 %, 1 %, 0.1 %: the cheapest setting, its error, what it costs."""
+    names = results.error_names()
+    if not names:
+        return []
+    default = results.default
+    out = ["| %sat most | cheapest setting found | its error | CPU [s] | over the default's CPU |" % ("error of | " if names != ["error"] else "error "),
+           "|---" * (5 + (names != ["error"])) + "|"]
+    for name in names:
+        for target in TARGETS:
+            start = "| %s%s | " % ("" if names == ["error"] else name + " | ", percent(target))
+            found = results.cheapest(name, target)
+            if found:
+                ratio = number(found.cpu_s / default.cpu_s, 2) if default and default.done else ""
+                out.append(start + "%s | %s | %s | %s |" % (found.point.name, percent(found.errors[name]), number(found.cpu_s), ratio))
+            else:
+                best = min(results.compared(name), key=lambda r: r.errors[name], default=None)
+                out.append(start + ("none of these; the best, %s, has %s | | | |" % (best.point.name, percent(best.errors[name])) if best else "none | | | |"))
+        if default and default.done and name in default.errors:
+            on = default in results.front(name)
+            out.append("| %sdefault | %s, %s the front | %s | %s | 1 |" % ("" if names == ["error"] else name + " | ", default.point.name, "on" if on else "not on",
+                                                                             percent(default.errors[name]), number(default.cpu_s)))
+    return out
+
+
+def claims_table(claims):
+    out = ["| what is claimed, and checked | measured | |", "|---|---|---|"]
+    for claim in claims:
+        verdict = {True: "holds", False: "**does not hold**", None: "not looked at: " + claim.why}[claim.holds]
+        out.append("| %s | %s %s %s | %s |" % (claim.text, number(claim.value), claim.relation, number(claim.bound), verdict))
+    return out
+
+
+def results_table(study, results):
+    errors = results.error_names()
+    values = list(dict.fromkeys(name for r in results for name in r.values))
+    out = ["| | CPU [s] | " + " | ".join([("error" if e == "error" else "error of " + e) for e in errors] + values) + " |", "|---" * (2 + len(errors) + len(values)) + "|"]
+    for r in results:
+        if r.done:
+            name = r.point.name + (" (reference)" if r.point.reference else "") + (" (default)" if r.point.default else "")
+            out.append("| %s | %s | " % (name, number(r.cpu_s)) + " | ".join(["" if r.point.reference or e not in r.errors else percent(r.errors[e]) for e in errors]
+                                                                                  + [number(r.values[v], 5) if v in r.values else "" for v in values]) + " |")
+    return out
+
+
+def write_page(study, results, claims, folder, alluvium):
+    """README.md of a study."""
+    failed = [r for r in results if not r.done]
+    versions = sorted({r.version for r in results})
+    out = ["# " + study.title, "", "<!-- written by %s -->" % commands(study), "", study.says(results), "",
+           "[![%s](%s.png)](%s.svg)" % (study.title, study.name, study.name), ""]
+    if study.prose:
+        out += [study.prose, ""]
+    table = accuracy_table(study, results)
+    if table:
+        out += ["## What an accuracy costs", ""] + table + [""]
+    out += ["## Checked", ""] + claims_table(claims) + [""]
+    out += ["## Failed", ""]
+    out += (["| point | exit code | why |", "|---|---|---|"] + ["| %s | %d | %s |" % (r.point.name, r.exit_code, r.reason.replace("|", "/")) for r in failed] if failed else ["No point failed."]) + [""]
+    if study.chart.kind != "map":
+        out += ["## All points", ""] + results_table(study, results) + [""]
+    out += ["## How to repeat it", "", "    %s              # %s of CPU time; with --quick less" % (commands(study), cpu_words(results)),
+            "    ctest -L chart -R %s    # its claims, on fewer points" % study.name, "",
+            "Data: [results.csv](results.csv); what is run: [study.py](study.py). %s (%s), on %s, one process a point." % (", ".join(versions), libraries(alluvium), hardware()),
+            "CPU times are user and system time of the process, set-up included, on a machine that others used as well: trust their ratios within a fifth.", ""]
+    os.makedirs(folder, exist_ok=True)
+    with open(os.path.join(folder, "README.md"), "w") as file:
+        file.write("\n".join(out))
+
+
+def cpu_words(results):
+    total = sum(r.cpu_s for r in results)
+    return "%.0f s" % total if total < 100 else "%.0f min" % (total / 60)
+
+
+def index(studies, results_of, folder):
+    """Renew the list of studies in README.md of doc/lab, between its marks."""
+    out = []
+    for study in studies:
+        results = results_of(study)
+        if not len(results.all):
+            continue
+        out += ["### [%s](%s/README.md)" % (study.title, study.name), "", study.says(results), "",
+                '<a href="%s/README.md"><img src="%s/%s.png" alt="%s" width="480"></a>' % (study.name, study.name, study.name, study.title), ""]
+        table = accuracy_table(study, results)
+        out += table + ([""] if table else [])
+        failed = sum(not r.done for r in results)
+        out += ["%d points%s, %s of CPU time." % (len(results.all), ", %d of them failed" % failed if failed else "", cpu_words(results)), ""]
+    name = os.path.join(folder, "README.md")
+    with open(name) as file:
+        text = file.read()
+    start, rest = text.split(MARKS[0])
+    with open(name, "w") as file:
+        file.write(start + MARKS[0] + "\n\n" + "\n".join(out) + MARKS[1] + rest.split(MARKS[1])[1])
+
+
+def report(pages, target, alluvium):
+    """One HTML file of pages [(title, folder)], pictures inside it."""
+    try:
+        import markdown_it
+    except ImportError:
+        raise SystemExit("lab: the report needs python3-markdown-it")
+    parser = markdown_it.MarkdownIt("commonmark", {"html": True}).enable("table")
+    commit = subprocess.run(["git", "-C", ROOT, "describe", "--always", "--dirty", "--abbrev=12"], capture_output=True, text=True).stdout.strip() or "unknown"
+    with open(os.path.join(ROOT, "contrib", "site-parts", "style.css")) as file:
+        style = file.read()
+    body = ["<h1>Laboratory</h1><p>Repository at %s. %s. On %s.</p><ul>" % (html.escape(commit), html.escape(libraries(alluvium)), html.escape(hardware()))]
+    body += ['<li><a href="#s%d">%s</a></li>' % (i, html.escape(title)) for i, (title, _) in enumerate(pages)] + ["</ul>"]
+    for i, (_, folder) in enumerate(pages):
+        with open(os.path.join(folder, "README.md")) as file:
+            text = re.sub(r"<!--.*?-->", "", file.read(), flags=re.S)
+        text = re.sub(r"\[(!\[.*?\]\(.*?\))\]\(.*?\)", r"\1", text)  # the picture's own link
+        text = re.sub(r"(?<!!)\[([^\]]*)\]\((?![a-z]+:)[^)]*\)", r"\1", text)  # links into the repository lead nowhere from here
+        page = re.sub(r'src="([\w./-]+\.png)"', lambda m: 'src="data:image/png;base64,%s"' % encoded(os.path.join(folder, m[1])), parser.render(text))
+        body.append('<section id="s%d">%s</section>' % (i, page))
+    os.makedirs(os.path.dirname(os.path.abspath(target)), exist_ok=True)
+    with open(target, "w") as file:
+        file.write('<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>Alluvium: laboratory</title><style>%s\nimg{max-width:100%%}</style></head><body><main>%s</main></body></html>\n'
+                   % (style, "\n".join(body)))
+
+
+def encoded(name):
+    with open(name, "rb") as file:
+        return base64.b64encode(file.read()).decode()

@@ -1,0 +1,240 @@
+"""Runs the points of a study, as many at a time as are asked for, and keeps what is done in its results.csv."""
+
+import concurrent.futures
+import csv
+import dataclasses
+import hashlib
+import json
+import math
+import os
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import threading
+import time
+
+from . import ROOT
+from .study import Result, Results
+from alluvium import Run, sweeps
+
+COLUMNS = ["series", "label", "x", "y", "status", "exit_code", "reason", "cpu_s"]  # then errors and values, then:
+INTERRUPTED = "interrupted"  # such a point is run again
+LAST = ["settings", "version", "key"]
+
+
+class Printed:
+    """What a point with a command has left: its folder and what it printed."""
+
+    def __init__(self, folder, text):
+        self.folder, self.text = folder, text
+
+
+def version_of(alluvium):
+    """(name for people, what tells programs apart)."""
+    name = subprocess.run([alluvium, "--version"], capture_output=True, text=True, check=True, env=sweeps.environment()).stdout.splitlines()[0].strip()
+    if "dirty" not in name:
+        return name, name
+    # the name does not tell: the files do
+    linked = subprocess.run(["ldd", alluvium], capture_output=True, text=True).stdout
+    files = [alluvium] + re.findall(r"=> (\S*liballuvium_core\S*)", linked)
+    return name, name + " " + hashlib.sha256(b"".join(open(file, "rb").read() for file in files)).hexdigest()[:12]
+
+
+def scene_text(path):
+    """A scene with what it includes."""
+    text = []
+    with open(path) as file:
+        for line in file:
+            match = re.match(r"\s*include\s+(\S+)", line)
+            text.append(scene_text(os.path.join(os.path.dirname(path), match[1])) if match else line)
+    return "".join(text)
+
+
+class Runner:
+    def __init__(self, study, build, target, scratch, alluvium=None, jobs=1, limit=None, say=print):
+        """`target`: folder of results.csv; `scratch`: where the runs go, and where deposits are kept."""
+        self.study, self.build, self.target, self.say, self.jobs = study, build, target, say, jobs
+        self.alluvium = alluvium or os.path.join(build, "alluvium")
+        self.scratch, self.deposits = os.path.join(scratch, study.name), os.path.join(scratch, "deposits")
+        self.limit = limit or study.get("limit", 300)
+        self.version, self.identity = version_of(self.alluvium)
+        self.lock, self.children = threading.Lock(), set()
+
+    @property
+    def file(self):
+        return os.path.join(self.target, "results.csv")
+
+    # --- what is kept
+
+    def key(self, point):
+        """Of all that a point's result follows from."""
+        what = [self.identity, sorted((k, sweeps._text(v)) for k, v in point.settings.items()), point.command, sorted(point.files.items()), self.limit]
+        if not point.command:
+            what.append(scene_text(os.path.join(self.study.folder, point.scene)))
+        what.append(hashlib.sha256(self.study.get("measure").__code__.co_code + repr(self.study.get("measure").__code__.co_consts).encode()).hexdigest())
+        return hashlib.sha256(json.dumps(what, default=str).encode()).hexdigest()[:16]
+
+    def write(self, results):
+        """results.csv, whole, at once."""
+        self.study.compare(results)
+        errors = list(dict.fromkeys(name for r in results for name in r.errors))
+        values = list(dict.fromkeys(name for r in results for name in r.values))
+        os.makedirs(self.target, exist_ok=True)
+        with open(self.file + ".new", "w", newline="") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(COLUMNS + ["error" if name == "error" else "error: " + name for name in errors] + ["value: " + name for name in values] + LAST)
+            for r in results:
+                settings = "; ".join("%s = %s" % (k, sweeps._text(v)) for k, v in r.point.settings.items() if k not in self.study.get("always", {}))
+                writer.writerow([r.point.series, r.point.label, "" if r.point.x is None else "%.6g" % r.point.x, "" if r.point.y is None else "%.6g" % r.point.y,
+                                 r.status, r.exit_code, r.reason, "%.3f" % r.cpu_s] + [("%.4g" % r.errors[n]) if n in r.errors else "" for n in errors]
+                                + [repr(r.values[n]) if n in r.values else "" for n in values] + [settings, r.version, r.key])
+        os.replace(self.file + ".new", self.file)
+
+    # --- running
+
+    def run(self, quick=False, again=False):
+        """Results of all points, run or known."""
+        points = self.study.points(quick)
+        known = {} if again else {row["key"]: row for row in read_rows(self.file) if row["reason"] != INTERRUPTED}
+        took = {(row["series"], row["label"]): float(row["cpu_s"]) for row in read_rows(self.file)}  # also of other versions
+        results, todo = {}, []
+        for i, point in enumerate(points):
+            row = known.get(self.key(point))
+            if row:
+                results[i] = from_row(row, point)
+            else:
+                todo.append(i)
+        self.say("%s: %d points, %d to run" % (self.study.name, len(points), len(todo)))
+        start, waiting = time.monotonic(), set(todo)
+        guess = lambda i: took.get((points[i].series, points[i].label)) or (sum(took.values()) / len(took) if took else 1.0)
+        # the references alone: they fill caches
+        first, rest = [i for i in todo if points[i].reference], [i for i in todo if not points[i].reference]
+        n = 0
+        with concurrent.futures.ThreadPoolExecutor(max(1, self.jobs)) as pool:
+            try:
+                for batch in ([[i] for i in first] + [rest] if rest else [[i] for i in first]):
+                    futures = {pool.submit(self.one, points[i]): i for i in batch}
+                    for future in concurrent.futures.as_completed(futures):
+                        i = futures[future]
+                        results[i] = future.result()
+                        n += 1
+                        waiting.discard(i)
+                        took[points[i].series, points[i].label] = results[i].cpu_s
+                        self.write([results[k] for k in sorted(results)])
+                        spent = sum(results[k].cpu_s for k in todo if k in results)
+                        left = (time.monotonic() - start) * sum(map(guess, waiting)) / max(spent, 1e-9)
+                        self.say("  %d/%d  %s: %s%s" % (n, len(todo), points[i].name, describe(results[i]), "" if n == len(todo) else "; %s left" % duration(left)))
+            except BaseException:  # the user's Ctrl-C, too
+                for future in futures:
+                    future.cancel()
+                self.kill()
+                raise
+        found = [results[i] for i in range(len(points))]
+        self.write(found)
+        return Results(found)
+
+    def known(self, quick=False):
+        """What results.csv has of the study's points, of whatever version."""
+        rows = {(row["series"], row["label"]): row for row in read_rows(self.file)}
+        found = [from_row(rows[p.series, p.label], p) for p in self.study.points(quick) if (p.series, p.label) in rows]
+        self.study.compare(found)
+        return Results(found)
+
+    def kill(self):
+        with self.lock:
+            for child in self.children:
+                child.send_signal(signal.SIGKILL)
+
+    def one(self, point):
+        key = self.key(point)
+        folder = os.path.join(self.scratch, key)
+        shutil.rmtree(folder, ignore_errors=True)
+        os.makedirs(folder)
+        for name, text in point.files.items():
+            with open(os.path.join(folder, name), "w") as file:
+                file.write(text)
+        places = {"{folder}": folder, "{build}": self.build, "{root}": ROOT, "{study}": self.study.folder}
+
+        def filled(text):
+            for name, path in places.items():
+                text = text.replace(name, path) if isinstance(text, str) else text
+            return text
+
+        if point.command:
+            command, output = [filled(word) for word in point.command], folder
+        else:
+            output = os.path.join(folder, "output")
+            settings = {"Output/Interval of pictures": 0, "Grains/Deposit: settled bed/Cache folder": self.deposits,
+                        **{name: filled(value) for name, value in point.settings.items()}}
+            command = sweeps.command(os.path.join(self.study.folder, point.scene), settings, output, alluvium=self.alluvium)
+        printed = os.path.join(folder, "printed")
+        try:
+            exit_code, cpu_s = self.call(command, printed, folder)
+        except OSError as error:
+            exit_code, cpu_s = 127, 0.0
+            with open(printed, "w") as file:
+                file.write(str(error))
+        with open(printed, errors="replace") as file:
+            text = file.read()
+        status, reason, values = ("done", "", {}) if exit_code == 0 else ("failed", self.why(exit_code, output, text), {})
+        if exit_code in (-signal.SIGINT, -signal.SIGTERM) or (not point.command and Run(output).summary.get("ended") == "interrupted"):
+            status, reason = "failed", INTERRUPTED
+        if status == "done" or self.study.get("measure_failed", False):
+            try:
+                values = {name: float(value) for name, value in self.study.module.measure(Printed(output, text) if point.command else Run(output), point).items()}
+                bad = [name for name, value in values.items() if not math.isfinite(value)]
+                if status == "done" and bad:
+                    status, reason = "failed", "nothing was measured: %s" % ", ".join(bad)
+            except Exception as error:
+                if status == "done":
+                    status, reason = "failed", "nothing was measured: %s: %s" % (type(error).__name__, error)
+        values = {name: value for name, value in values.items() if math.isfinite(value)}
+        shutil.rmtree(folder, ignore_errors=True)
+        return Result(dataclasses.replace(point), status, exit_code, reason, cpu_s, values, self.version, key)
+
+    def call(self, command, printed, folder):
+        """Exit code (negative: a signal's) and CPU time, user and system, of a command."""
+        limit = math.ceil(self.limit)
+        with open(printed, "w") as file:
+            child = subprocess.Popen(command, stdout=file, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, env=sweeps.environment(), cwd=folder, start_new_session=True,
+                                     preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 5)))
+        with self.lock:
+            self.children.add(child)
+        _, status, usage = os.wait4(child.pid, 0)
+        with self.lock:
+            self.children.discard(child)
+        child.returncode = os.waitstatus_to_exitcode(status)
+        return child.returncode, usage.ru_utime + usage.ru_stime
+
+    def why(self, exit_code, output, text):
+        """A line: why a run failed."""
+        if exit_code in (-signal.SIGXCPU, -signal.SIGKILL):
+            return "given up after %g s of CPU time" % self.limit
+        reason = Run(output).summary.get("reason") or (text.strip().splitlines() or ["it said nothing"])[-1]
+        for path in (self.scratch, self.build, ROOT):
+            reason = reason.replace(path + "/", "")
+        return " ".join(str(reason).split())[:300]
+
+
+def read_rows(name):
+    if not os.path.exists(name):
+        return []
+    with open(name, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def from_row(row, point):
+    values = {name[7:]: float(value) for name, value in row.items() if name.startswith("value: ") and value}
+    return Result(point, row["status"], int(row["exit_code"]), row["reason"], float(row["cpu_s"]), values, row["version"], row["key"])
+
+
+def describe(result):
+    if not result.done:
+        return "FAILED, exit code %d: %s" % (result.exit_code, result.reason)
+    return "%.1f s CPU%s" % (result.cpu_s, "".join(", %s %.2g" % item for item in result.errors.items()))
+
+
+def duration(seconds):
+    return "%.0f s" % seconds if seconds < 100 else "%.1f min" % (seconds / 60) if seconds < 6000 else "%.1f h" % (seconds / 3600)
