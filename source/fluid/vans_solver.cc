@@ -39,7 +39,7 @@ namespace alluvium::fluid
       terms,
       "traction, upwinding, advection, tangential, backflow",
       Patterns::MultipleSelection("none|traction|upwinding|advection|tangential|backflow"),
-      "What is done where the pressure is given, for comparisons (doc/open-boundaries.md). `traction`: viscous "
+      "What is done where the pressure is given, for comparisons (doc/theory/open-boundaries.md). `traction`: viscous "
       "traction "
       "of developed flow; `upwinding`: none across the boundary; `advection`: none from outside; `tangential`: flow "
       "enters at right angles; `backflow`: what comes back loses its kinetic energy. Leave one out and flows that are "

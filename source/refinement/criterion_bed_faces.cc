@@ -65,5 +65,5 @@ namespace alluvium::refinement
     "bed faces",
     "fine along the bottom and the top of the grains' bed, growing outwards. In a bed that is lifted 8 d coarse with "
     "0.5 d at the faces, `Half width = 0` and `Growth = 1`, gives the flux, onset and heave of 0.5 d everywhere within "
-    "0.3 %, at a twelfth of the fluid's cost (doc/adaptivity.md).")
+    "0.3 %, at a twelfth of the fluid's cost (doc/guide/adaptivity.md).")
 } // namespace alluvium::refinement

@@ -112,7 +112,7 @@ namespace alluvium::scene
       "Files of shared libraries with plug-ins of one's own (drag laws, boundary conditions, observers ...), relative "
       "to "
       "this file and separated by commas. They are loaded before anything else, and their plug-ins are chosen as the "
-      "program's own are. doc/architecture.md says how to make one.");
+      "program's own are. doc/developer/plug-ins.md says how to make one.");
   }
 
 

@@ -78,9 +78,10 @@ def the_site(folder, build):
     # every document and step is there, and found by the search
     index = json.loads(read(folder, "search-index.js").split("=", 1)[1].strip().rstrip(";"))
     urls = {url.split("#")[0] for _, url, _ in index}
-    for name in os.listdir(os.path.join(ROOT, "doc")):
-        if name.endswith(".md"):
-            assert "doc/" + name.replace("README", "index")[:-3] + ".html" in urls, name
+    for kind in ("guide", "theory", "developer", "reports"):
+        for name in os.listdir(os.path.join(ROOT, "doc", kind)):
+            if name.endswith(".md"):
+                assert "doc/%s/%s.html" % (kind, name[:-3]) in urls, name
     assert "doc/steps/step-1/index.html" in urls and "parameters.html" in urls and "gallery/sedimentation.html" in urls, urls
     # again, over the old one; but not over something else
     assert subprocess.run([os.path.join(ROOT, "contrib", "site"), "--no-reference", "--build", build, folder], stdout=subprocess.DEVNULL).returncode == 0

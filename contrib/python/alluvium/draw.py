@@ -1,4 +1,4 @@
-"""Draw what a run has written (doc/output-format.md says what that is).
+"""Draw what a run has written (doc/guide/output-format.md says what that is).
 
   motion-and-head.png  mass fraction in motion and differential head over time; several runs in one picture
   bed.png              the grains, coloured by how far they have moved, at a few times

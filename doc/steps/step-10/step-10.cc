@@ -95,7 +95,7 @@ public:
     coupling.reinit();
   }
 
-  // One step to `time`. It is step 1 to 6 of doc/architecture.md, "A step", for a mesh that stays and steps of one
+  // One step to `time`. It is step 1 to 6 of doc/developer/architecture.md, "A step", for a mesh that stays and steps of one
   // length.
   void step(const double time, const Tensor<1, 2> &gravity)
   {

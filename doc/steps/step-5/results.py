@@ -14,7 +14,7 @@ def at_faces(h):
 
 
 def lag(length, height=H, diameter=2.2e-4, packing=0.797, ramp=1.0):
-    """How far the imposed head is beyond the onset when a rigid bed has moved by a diameter (doc/equations.md)."""
+    """How far the imposed head is beyond the onset when a rigid bed has moved by a diameter (doc/theory/equations.md)."""
     mass = (2630 * packing + RHO * 0.48) * length + RHO * (height - length)
     return height * (6 * diameter * mass / (RHO * G * height * ramp**2))**(1 / 3)
 
