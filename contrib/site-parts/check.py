@@ -7,7 +7,7 @@ import shutil
 import subprocess
 import urllib.parse
 
-WORDS = "te,nd,fo,inout,strat,hist,ans,daa,som,ot,uint,sinc,fro,ser"  # names that codespell takes for mistakes
+WORDS = "numer,te,nd,fo,inout,strat,hist,ans,daa,som,ot,uint,sinc,fro,ser"  # names that codespell takes for mistakes
 
 # that pages here have; another one is a `<` in the text that a browser takes for a tag
 TAGS = set("html head meta title link script style body header nav a div span main h1 h2 h3 h4 h5 h6 p pre code b i em strong small ul ol li table thead tbody tr th td "
