@@ -61,7 +61,7 @@ def draw_work_precision(study, results, folder):
     series = list(dict.fromkeys(r.point.series for r in results if not r.point.reference))
     looks = {s: (COLOURS[i % len(COLOURS)], MARKERS[i % len(MARKERS)]) for i, s in enumerate(series)}
     columns = 1 if len(names) == 1 else 2
-    figure, axes, place = panels(len(names), columns, (9.5 if columns == 1 else 7.5, 6.6), 0.3 * (len(series) + 3) / (2 * columns) + 0.1)
+    figure, axes, place = panels(len(names), columns, (12 if columns == 1 else 9.5, 7.6), 0.34 * math.ceil((len(series) + 4) / (2 * columns)) + 0.1)
     handles = {}
     for axis, name in zip(axes, names):
         work_precision_panel(axis, results, name, looks, handles)
@@ -70,6 +70,7 @@ def draw_work_precision(study, results, folder):
         axis.set_ylabel("CPU time [s]")
     place.legend(handles.values(), handles.keys(), loc="center", ncol=2 * columns, frameon=False)
     figure.canvas.draw()
+    figure.set_layout_engine("none")  # labels must not push the axes
     for axis in axes:
         place_labels(figure, axis)
     return save(figure, folder, study.name)
@@ -82,10 +83,11 @@ def work_precision_panel(axis, results, name, looks, handles):
     errors = [r.errors[name] for r in shown if r.errors[name] > 0]
     smallest = min(errors, default=1e-6)
     place = lambda r: max(r.errors[name], smallest / 3)  # an error of zero has no place on this axis
+    floor = results.floor(name)
     axis.set_xscale("log")
     axis.set_yscale("log")
     axis.wanted = []
-    handles["Pareto front: nothing is cheaper and more accurate"], = axis.plot([place(r) for r in front], [r.cpu_s for r in front], "-", color=FRONT, lw=7, alpha=0.45, zorder=1, solid_capstyle="round",
+    handles["Pareto front: nothing is cheaper and more accurate"], = axis.plot([max(place(r), floor) for r in front], [r.cpu_s for r in front], "-", color=FRONT, lw=7, alpha=0.45, zorder=1, solid_capstyle="round",
                                                                                 drawstyle="steps-post")
     for s, (colour, marker) in looks.items():
         points = [r for r in shown if r.point.series == s]
@@ -94,6 +96,10 @@ def work_precision_panel(axis, results, name, looks, handles):
             axis.wanted.append((place(r), r.cpu_s, r.point.label, colour))
             if r.point.default:
                 handles["default"], = axis.plot([place(r)], [r.cpu_s], "o", ms=19, mfc="none", mec="black", mew=1.6, ls="", zorder=4)
+    if floor:
+        left = min(min((place(r) for r in shown), default=floor), floor) / 1.6
+        handles["less than the reference's own error"] = axis.axvspan(left / 10, floor, color="0.93", hatch="//", ec="0.8", lw=0, zorder=0)
+        axis.set_xlim(left=left)
     if failed:
         # no error to show: a strip of their own at the right
         right = 3 * max([place(r) for r in shown], default=1)
@@ -106,7 +112,9 @@ def work_precision_panel(axis, results, name, looks, handles):
             handles["failed"], = axis.plot([right / 1.25], [y], "x", color=FAILED, ms=10, mew=2.5, zorder=4, ls="")
             axis.wanted.append((right / 1.25, y, r.point.label, colour))
         axis.set_xlim(right=right * 1.9)
-    axis.margins(0.14)
+    elif shown:
+        axis.set_xlim(right=2 * max(place(r) for r in shown))
+    axis.margins(x=0.1, y=0.12)
     axis.grid(alpha=0.3, which="major")
     ticks(axis)
 
@@ -128,28 +136,33 @@ def place_labels(figure, axis):
     inside = axis.get_window_extent(renderer)
     to_screen = lambda x, y: axis.transData.transform((x, y))
     scale = figure.dpi / 72
-    taken = [Bbox.from_bounds(*(to_screen(x, y) - 6 * scale), 12 * scale, 12 * scale) for x, y, _, _ in axis.wanted]
-    for x, y, words, colour in axis.wanted:
+    points = [Bbox.from_bounds(*(to_screen(x, y) - 6 * scale), 12 * scale, 12 * scale) for x, y, _, _ in axis.wanted]
+    # crowded ones last: they have leaders
+    near = lambda a: sum(math.hypot(a.x0 - b.x0, a.y0 - b.y0) < 80 * scale for b in points)
+    labels = []
+    for (x, y, words, colour), own in sorted(zip(axis.wanted, points), key=lambda entry: near(entry[1])):
         best = None
-        for distance in (9, 18, 30, 44, 60):
-            for angle in (0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180):
-                a = math.radians(angle)
-                dx, dy = distance * math.cos(a), distance * math.sin(a)
-                text = axis.annotate(words, (x, y), (dx, dy), textcoords="offset points", fontsize=13, color=dark(colour), zorder=5,
-                                     ha="left" if dx > 3 else "right" if dx < -3 else "center", va="bottom" if dy > 3 else "top" if dy < -3 else "center",
-                                     arrowprops=dict(arrowstyle="-", color=colour, lw=0.6, shrinkA=0, shrinkB=4) if distance > 20 else None)
+        for distance in (9, 18, 30, 44, 60, 80, 105):
+            for angle in range(0, 360, 15):
+                dx, dy = distance * math.cos(math.radians(angle)), distance * math.sin(math.radians(angle))
+                text = label(axis, x, y, words, colour, dx, dy)
+                text.update_positions(renderer)
                 box = matplotlib.text.Text.get_window_extent(text, renderer)
-                hidden = sum(overlap(box, other) for other in taken)
-                outside = box.width * box.height - overlap(box, inside)
-                cost = hidden + 2 * outside + 0.02 * distance * box.height
                 text.remove()
+                outside = box.width * box.height - overlap(box, inside)
+                cost = sum(overlap(box, other) for other in points) + 3 * sum(overlap(box, other) for other in labels) + 8 * outside + 0.15 * distance * box.height
                 if best is None or cost < best[0]:
-                    best = (cost, dx, dy, distance, box)
-        _, dx, dy, distance, box = best
-        axis.annotate(words, (x, y), (dx, dy), textcoords="offset points", fontsize=13, color=dark(colour), zorder=5,
-                      ha="left" if dx > 3 else "right" if dx < -3 else "center", va="bottom" if dy > 3 else "top" if dy < -3 else "center",
-                      arrowprops=dict(arrowstyle="-", color=colour, lw=0.6, shrinkA=0, shrinkB=4) if distance > 20 else None)
-        taken.append(box)
+                    best = (cost, dx, dy, box)
+        _, dx, dy, box = best
+        label(axis, x, y, words, colour, dx, dy)
+        labels.append(box)
+
+
+def label(axis, x, y, words, colour, dx, dy):
+    """With a leader, if it is far from its point."""
+    line = dict(arrowstyle="-", color=colour, lw=0.7, shrinkA=0, shrinkB=4) if math.hypot(dx, dy) > 20 else None
+    return axis.annotate(words, (x, y), (dx, dy), textcoords="offset points", fontsize=13, color=dark(colour), zorder=5, arrowprops=line, annotation_clip=False,
+                         ha="left" if dx > 3 else "right" if dx < -3 else "center", va="bottom" if dy > 3 else "top" if dy < -3 else "center")
 
 
 def overlap(a, b):

@@ -11,6 +11,7 @@ from . import ROOT
 from .study import number, percent
 
 TARGETS = (0.1, 0.01, 0.001)
+LINE_BEFORE = "For each error, the cheapest setting found:"
 MARKS = "<!-- studies: contrib/lab index -->", "<!-- end of studies -->"
 
 
@@ -47,17 +48,23 @@ def accuracy_table(study, results):
         for target in TARGETS:
             start = "| %s%s | " % ("" if names == ["error"] else name + " | ", percent(target))
             found = results.cheapest(name, target)
-            if found:
+            if results.floor(name) > target * 1.001:
+                out.append(start + "the reference is not known to this | | | |")
+            elif found:
                 ratio = number(found.cpu_s / default.cpu_s, 2) if default and default.done else ""
-                out.append(start + "%s | %s | %s | %s |" % (found.point.name, percent(found.errors[name]), number(found.cpu_s), ratio))
+                out.append(start + "%s | %s | %s | %s |" % (found.point.name, shown_error(results, name, found), number(found.cpu_s), ratio))
             else:
                 best = min(results.compared(name), key=lambda r: r.errors[name], default=None)
                 out.append(start + ("none of these; the best, %s, has %s | | | |" % (best.point.name, percent(best.errors[name])) if best else "none | | | |"))
         if default and default.done and name in default.errors:
             on = default in results.front(name)
             out.append("| %sdefault | %s, %s the front | %s | %s | 1 |" % ("" if names == ["error"] else name + " | ", default.point.name, "on" if on else "not on",
-                                                                             percent(default.errors[name]), number(default.cpu_s)))
+                                                                             shown_error(results, name, default), number(default.cpu_s)))
     return out
+
+
+def shown_error(results, name, result):
+    return percent(result.errors[name]) if result.errors[name] > results.floor(name) else "< " + percent(results.floor(name))
 
 
 def claims_table(claims):
@@ -90,12 +97,12 @@ def write_page(study, results, claims, folder, alluvium):
         out += [study.prose, ""]
     table = accuracy_table(study, results)
     if table:
-        out += ["## What an accuracy costs", ""] + table + [""]
-    out += ["## Checked", ""] + claims_table(claims) + [""]
+        out += ["## What an accuracy costs", "", LINE_BEFORE, ""] + table + [""]
+    out += ["## Checked", "", "What this page claims, and what was measured of it; `ctest -L chart` checks it on fewer points.", ""] + claims_table(claims) + [""]
     out += ["## Failed", ""]
-    out += (["| point | exit code | why |", "|---|---|---|"] + ["| %s | %d | %s |" % (r.point.name, r.exit_code, r.reason.replace("|", "/")) for r in failed] if failed else ["No point failed."]) + [""]
+    out += (["Points that gave no result, and what the program said:", "", "| point | exit code | why |", "|---|---|---|"] + ["| %s | %d | %s |" % (r.point.name, r.exit_code, r.reason.replace("|", "/")) for r in failed] if failed else ["No point failed."]) + [""]
     if study.chart.kind != "map":
-        out += ["## All points", ""] + results_table(study, results) + [""]
+        out += ["## All points", "", "CPU time, errors and what was measured, of all that ran:", ""] + results_table(study, results) + [""]
     out += ["## How to repeat it", "", "    %s              # %s of CPU time; with --quick less" % (commands(study), cpu_words(results)),
             "    ctest -L chart -R %s    # its claims, on fewer points" % study.name, "",
             "Data: [results.csv](results.csv); what is run: [study.py](study.py). %s (%s), on %s, one process a point." % (", ".join(versions), libraries(alluvium), hardware()),
@@ -118,9 +125,9 @@ def index(studies, results_of, folder):
         if not len(results.all):
             continue
         out += ["### [%s](%s/README.md)" % (study.title, study.name), "", study.says(results), "",
-                '<a href="%s/README.md"><img src="%s/%s.png" alt="%s" width="480"></a>' % (study.name, study.name, study.name, study.title), ""]
+"[![%s](%s/%s.png)](%s/README.md)" % (study.title, study.name, study.name, study.name), ""]
         table = accuracy_table(study, results)
-        out += table + ([""] if table else [])
+        out += [LINE_BEFORE, ""] + table + [""] if table else []
         failed = sum(not r.done for r in results)
         out += ["%d points%s, %s of CPU time." % (len(results.all), ", %d of them failed" % failed if failed else "", cpu_words(results)), ""]
     name = os.path.join(folder, "README.md")

@@ -109,7 +109,9 @@ class Runner:
         self.say("%s: %d points, %d to run" % (self.study.name, len(points), len(todo)))
         start, waiting = time.monotonic(), set(todo)
         guess = lambda i: took.get((points[i].series, points[i].label)) or (sum(took.values()) / len(took) if took else 1.0)
-        # the references alone: they fill caches
+        # the references alone: they fill the cache of deposits; without one, a run that is not counted does
+        if todo and not any(p.reference for p in points) and not points[todo[0]].command:
+            self.one(points[todo[0]])
         first, rest = [i for i in todo if points[i].reference], [i for i in todo if not points[i].reference]
         n = 0
         with concurrent.futures.ThreadPoolExecutor(max(1, self.jobs)) as pool:
@@ -133,14 +135,14 @@ class Runner:
                 raise
         found = [results[i] for i in range(len(points))]
         self.write(found)
-        return Results(found)
+        return Results(found, self.study.get("floor", 0.0))
 
     def known(self, quick=False):
         """What results.csv has of the study's points, of whatever version."""
         rows = {(row["series"], row["label"]): row for row in read_rows(self.file)}
         found = [from_row(rows[p.series, p.label], p) for p in self.study.points(quick) if (p.series, p.label) in rows]
         self.study.compare(found)
-        return Results(found)
+        return Results(found, self.study.get("floor", 0.0))
 
     def kill(self):
         with self.lock:

@@ -82,8 +82,9 @@ class Missing(Exception):
 class Results:
     """All results of a study; what claims and texts look numbers up in."""
 
-    def __init__(self, results):
-        self.all = list(results)
+    def __init__(self, results, floor=0.0):
+        """`floor`: the reference's own error, or {name: that}; what is below it is equally good."""
+        self.all, self._floor = list(results), floor
         self.by_name = {(r.point.series, r.point.label): r for r in self.all}
 
     def __iter__(self):
@@ -129,17 +130,21 @@ class Results:
         """Those that have an error of this name: the reference has none to show."""
         return [r for r in self.all if r.done and not r.point.reference and name in r.errors]
 
+    def floor(self, name):
+        return self._floor.get(name, 0.0) if isinstance(self._floor, dict) else self._floor
+
     def front(self, name):
         """Of these the ones than which none is both cheaper and more accurate, from dear to cheap."""
         best, found = math.inf, []
-        for r in sorted(self.compared(name), key=lambda r: (r.cpu_s, r.errors[name])):
-            if r.errors[name] < best:
-                best = r.errors[name]
+        clamped = lambda r: max(r.errors[name], self.floor(name))
+        for r in sorted(self.compared(name), key=lambda r: (r.cpu_s, clamped(r))):
+            if clamped(r) < best:
+                best = clamped(r)
                 found.append(r)
         return found[::-1]
 
     def cheapest(self, name, target):
-        return min((r for r in self.compared(name) if r.errors[name] <= target), key=lambda r: r.cpu_s, default=None)
+        return min((r for r in self.compared(name) if max(r.errors[name], self.floor(name)) <= target * 1.001), key=lambda r: r.cpu_s, default=None)
 
 
 @dataclasses.dataclass
@@ -218,7 +223,7 @@ class Study:
         says = self.get("says", "")
         try:
             return says(results) if callable(says) else says
-        except Missing as error:
+        except (Missing, AttributeError, KeyError) as error:
             return "Not enough has been run to say anything: %s." % error
 
 
