@@ -130,6 +130,12 @@ def ticks(axis):
         side.set_minor_formatter(NullFormatter())
 
 
+def plain(side):
+    """0.01 and 10, not powers of ten."""
+    side.set_major_formatter(FuncFormatter(lambda x, _: number(x) if x >= 1e-4 else "%.0e" % x))
+    side.set_minor_formatter(NullFormatter())
+
+
 def place_labels(figure, axis):
     """Labels beside their points, where they hide the least of points and other labels."""
     renderer = figure.canvas.get_renderer()
@@ -188,11 +194,11 @@ def draw_map(study, results, folder):
     figure, axes, place = panels(len(series), columns, (5.2, 4.8), 0.9)
     finite = [v for v in values if math.isfinite(v) and (v > 0 or "v" not in chart.log)] or [1.0]
     norm = (LogNorm if "v" in chart.log else Normalize)(min(finite), max(max(finite), min(finite) * (1 + 1e-9)))
-    handles, coloured = {}, None
+    handles, coloured, good = {}, None, "at most %s" % number(chart.bound)
     for i, (axis, name) in enumerate(zip(axes, series)):
         points = results.of(name)
-        for kind, marker, wanted in (("good", "o", lambda r: r.done and r.values.get(chart.value, math.inf) <= chart.bound),
-                                     ("beyond %s" % number(chart.bound), "s", lambda r: r.done and r.values.get(chart.value, math.inf) > chart.bound),
+        for kind, marker, wanted in ((good, "o", lambda r: r.done and r.values.get(chart.value, math.inf) <= chart.bound),
+                                     ("above %s" % number(chart.bound), "s", lambda r: r.done and r.values.get(chart.value, math.inf) > chart.bound),
                                      ("failed", "X", lambda r: not r.done)):
             chosen = [r for r in points if wanted(r)]
             if not chosen:
@@ -202,18 +208,22 @@ def draw_map(study, results, folder):
                 axis.scatter(*at, marker=marker, s=110, c=FAILED, edgecolors="white", linewidths=0.6, zorder=3)
             else:
                 coloured = axis.scatter(*at, marker=marker, s=120, c=[r.values[chart.value] for r in chosen], cmap="cividis", norm=norm, zorder=3,
-                                    edgecolors="#0072B2" if kind == "good" else "#D55E00", linewidths=2)
-            edge = {"good": "#0072B2", "failed": "white"}.get(kind, "#D55E00")
+                                    edgecolors="#0072B2" if kind == good else "#D55E00", linewidths=2)
+            edge = {good: "#0072B2", "failed": "white"}.get(kind, "#D55E00")
             handles[kind] = matplotlib.lines.Line2D([], [], ls="", marker=marker, ms=10, mfc=FAILED if kind == "failed" else "white", mec=edge, mew=2)
         if "x" in chart.log:
             axis.set_xscale("log")
+            plain(axis.xaxis)
         if "y" in chart.log:
             axis.set_yscale("log")
+            plain(axis.yaxis)
         axis.margins(0.1)
         limits = axis.get_xlim(), axis.get_ylim()
         for k, (label, xs, ys) in enumerate(chart.lines(name) if chart.lines else []):
             handles[label], = axis.plot(xs, ys, color="black", lw=2, ls=["-", "--", ":", "-."][k % 4], zorder=2, label=label)
-        for x, y, label in chart.stands:
+        for x, y, label, *where in chart.stands:
+            if where and name not in where:
+                continue
             handles[label], = axis.plot([x], [y], "*", ms=20, color="#CC79A7", mec="black", ls="", zorder=4)
         axis.set_xlim(limits[0])
         axis.set_ylim(limits[1])
@@ -224,6 +234,9 @@ def draw_map(study, results, folder):
         if i % columns == 0:
             axis.set_ylabel(chart.y)
     if coloured is not None:
-        figure.colorbar(coloured, ax=axes, shrink=0.8, label=chart.title or chart.value)
+        bar = figure.colorbar(coloured, ax=axes, shrink=0.8, label=chart.title or chart.value)
+        if "v" in chart.log:
+            bar.ax.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+            plain(bar.ax.yaxis)
     place.legend(handles.values(), handles.keys(), loc="center", ncol=max(1, min(len(handles), columns + 1)), frameon=False)
     return save(figure, folder, study.name)

@@ -4,6 +4,7 @@ import concurrent.futures
 import csv
 import dataclasses
 import hashlib
+import inspect
 import json
 import math
 import os
@@ -11,6 +12,7 @@ import re
 import resource
 import shutil
 import signal
+import statistics
 import subprocess
 import threading
 import time
@@ -73,7 +75,7 @@ class Runner:
         what = [self.identity, sorted((k, sweeps._text(v)) for k, v in point.settings.items()), point.command, sorted(point.files.items()), self.limit]
         if not point.command:
             what.append(scene_text(os.path.join(self.study.folder, point.scene)))
-        what.append(hashlib.sha256(self.study.get("measure").__code__.co_code + repr(self.study.get("measure").__code__.co_consts).encode()).hexdigest())
+        what.append(inspect.getsource(self.study.module.measure))
         return hashlib.sha256(json.dumps(what, default=str).encode()).hexdigest()[:16]
 
     def write(self, results):
@@ -108,7 +110,7 @@ class Runner:
                 todo.append(i)
         self.say("%s: %d points, %d to run" % (self.study.name, len(points), len(todo)))
         start, waiting = time.monotonic(), set(todo)
-        guess = lambda i: took.get((points[i].series, points[i].label)) or (sum(took.values()) / len(took) if took else 1.0)
+        guess = lambda i: took.get((points[i].series, points[i].label)) or (statistics.median(took.values()) if took else 1.0)
         # the references alone: they fill the cache of deposits; without one, a run that is not counted does
         if todo and not any(p.reference for p in points) and not points[todo[0]].command:
             self.one(points[todo[0]])

@@ -72,7 +72,7 @@ class Map:
     bound: float = 1.0
     log: str = ""  # 'x', 'y', 'xy'; 'v' for the colours
     lines: Optional[Callable] = None  # lines(series) yields (label, xs, ys): theory
-    stands: tuple = ()  # (x, y, label): where the default stands
+    stands: tuple = ()  # (x, y, label), then the series that it is for, if not all: where the default stands
 
 
 class Missing(Exception):
