@@ -44,11 +44,13 @@ def draw(study, results, folder):
 def panels(n, columns, size, legend_height):
     """Figure, n axes of this size in so many columns, and a strip below them for a legend [inches]."""
     rows = math.ceil(n / columns)
-    figure = plt.figure(figsize=(columns * size[0], rows * size[1] + legend_height), layout="constrained")
-    grid = figure.add_gridspec(rows + 1, columns, height_ratios=[size[1]] * rows + [legend_height])
+    free = columns == 2 and n % 2 == 1  # the place of one panel
+    figure = plt.figure(figsize=(columns * size[0], rows * size[1] + (0 if free else legend_height)), layout="constrained")
+    grid = figure.add_gridspec(rows + (not free), columns, height_ratios=[size[1]] * rows + [legend_height] * (not free))
     axes = [figure.add_subplot(grid[i // columns, i % columns]) for i in range(n)]
-    place = figure.add_subplot(grid[rows, :])
+    place = figure.add_subplot(grid[rows - 1, 1] if free else grid[rows, :])
     place.axis("off")
+    place.columns = 1 if free else columns
     return figure, axes, place
 
 
@@ -61,14 +63,14 @@ def draw_work_precision(study, results, folder):
     series = list(dict.fromkeys(r.point.series for r in results if not r.point.reference))
     looks = {s: (COLOURS[i % len(COLOURS)], MARKERS[i % len(MARKERS)]) for i, s in enumerate(series)}
     columns = 1 if len(names) == 1 else 2
-    figure, axes, place = panels(len(names), columns, (12 if columns == 1 else 9.5, 7.6), 0.34 * math.ceil((len(series) + 4) / (2 * columns)) + 0.1)
+    figure, axes, place = panels(len(names), columns, (12, 7.6) if columns == 1 else (7.4, 6.4), 0.34 * math.ceil((len(series) + 4) / 2) + 0.1)
     handles = {}
     for axis, name in zip(axes, names):
         work_precision_panel(axis, results, name, looks, handles)
         axis.set_title("" if name == "error" else name)
         axis.set_xlabel(study.get("error_title", "error") if name == "error" else "error of " + name)
         axis.set_ylabel("CPU time [s]")
-    place.legend(handles.values(), handles.keys(), loc="center", ncol=2 * columns, frameon=False)
+    place.legend(handles.values(), handles.keys(), loc="center", ncol=2 if columns == 1 or place.columns == 2 else 1, frameon=False)
     figure.canvas.draw()
     figure.set_layout_engine("none")  # labels must not push the axes
     for axis in axes:
@@ -238,5 +240,5 @@ def draw_map(study, results, folder):
         if "v" in chart.log:
             bar.ax.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
             plain(bar.ax.yaxis)
-    place.legend(handles.values(), handles.keys(), loc="center", ncol=max(1, min(len(handles), columns + 1)), frameon=False)
+    place.legend(handles.values(), handles.keys(), loc="center", ncol=max(1, min(len(handles), place.columns + 1)), frameon=False)
     return save(figure, folder, study.name)

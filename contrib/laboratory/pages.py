@@ -6,6 +6,7 @@ import os
 import platform
 import re
 import subprocess
+import textwrap
 
 from . import ROOT
 from .study import number, percent
@@ -100,7 +101,7 @@ def write_page(study, results, claims, folder, alluvium):
         out += ["## What an accuracy costs", "", LINE_BEFORE, ""] + table + [""]
     out += ["## Checked", "", "What this page claims, and what was measured of it; `ctest -L chart` checks it on fewer points.", ""] + claims_table(claims) + [""]
     out += ["## Failed", ""]
-    out += (["Points that gave no result, and what the program said:", "", "| point | exit code | why |", "|---|---|---|"] + ["| %s | %d | %s |" % (r.point.name, r.exit_code, r.reason.replace("|", "/")) for r in failed] if failed else ["No point failed."]) + [""]
+    out += (["Points that gave no result, and what the program said:", "", "| point | exit code | why |", "|---|---|---|"] + ["| %s | %d | %s |" % (r.point.name, r.exit_code, textwrap.shorten(r.reason.replace("|", "/"), 200, placeholder=" ...")) for r in failed] if failed else ["No point failed."]) + [""]
     if study.chart.kind != "map":
         out += ["## All points", "", "CPU time, errors and what was measured, of all that ran:", ""] + results_table(study, results) + [""]
     out += ["## How to repeat it", "", "    %s              # %s of CPU time; with --quick less" % (commands(study), cpu_words(results)),

@@ -14,6 +14,7 @@ import shutil
 import signal
 import statistics
 import subprocess
+import textwrap
 import threading
 import time
 
@@ -219,7 +220,7 @@ class Runner:
         reason = Run(output).summary.get("reason") or (text.strip().splitlines() or ["it said nothing"])[-1]
         for path in (self.scratch, self.build, ROOT):
             reason = reason.replace(path + "/", "")
-        return " ".join(str(reason).split())[:300]
+        return textwrap.shorten(str(reason), 400, placeholder=" ...")
 
 
 def read_rows(name):

@@ -25,11 +25,11 @@ def points(quick):
         yield Point("fixed steps", "%g ms" % (1e3 * dt), {"Time/Time step": dt})
     for tolerance in [0.05] if quick else [0.01, 0.05, 0.2]:
         yield Point("chosen steps", "auto %g" % tolerance, {"Time/Time step": "auto", "Time/Automatic time step/Tolerance": tolerance}, default=tolerance == 0.05)
-    for tolerance in [1e-2] if quick else [1e-1, 1e-2, 1e-3, 1e-6]:
+    for tolerance in [1e-2] if quick else [1e-1, 1e-2, 1e-3]:
         yield Point("contact tolerance, 0.5 ms", "contacts %.0e" % tolerance, {"Contacts/Residual tolerance": tolerance, "Contacts/Largest violation": min(0.5, 100 * tolerance)})
-    for solver in [] if quick else ["Gauss-Seidel", "SOR", "accelerated Jacobi", "work queue"]:
+    for solver in [] if quick else ["Gauss-Seidel", "work queue"]:
         yield Point("contact solver, 0.5 ms", solver, {"Contacts/Contact solver": solver})
-    for stiffness in [] if quick else [1e3, 1e4, 1e5]:
+    for stiffness in [] if quick else [1e4, 1e5]:
         yield Point("soft spheres, 0.5 ms", "k %.0e" % stiffness, {"Contacts/Contact model": "soft spheres", "Contacts/Soft spheres/Stiffness": stiffness})
 
 

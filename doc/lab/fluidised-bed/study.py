@@ -5,7 +5,8 @@ chosen ones with their tolerance, time schemes, tolerance and solver of the cont
 fluid carries the bed, over its closed form (s phi_m - phi_b) L. Errors of first movement and heave (5 % and 95 % of the mass have moved by
 a diameter): of the head imposed at that instant, over the reference's: cells of 0.5 d at
 the bed's faces, steps of 0.1 ms, contacts to 1e-6.
-Movement grows out of contacts that slip, so the least that can be told apart is what another ordering of them makes, some 0.1 %.
+Movement grows out of contacts that slip, so settings that should not matter (another contact solver, a tighter tolerance) shift it, too. What
+is hatched is what steps of 0.3 ms differ from the reference by: 0.1 % of the head at the first movement, 0.25 % at the heave.
 """
 from laboratory.study import Chart, Point
 
@@ -13,6 +14,7 @@ order = 2
 scene = "ramp.prm"
 limit = 400
 chart = Chart()
+floor = {"the first movement": 1e-3, "the heave": 2.5e-3}
 
 TIGHT = {"Contacts/Residual tolerance": 1e-6}
 
@@ -38,13 +40,13 @@ def points(quick):
     for scheme, word in [("explicit", "explicit")] if quick else [("explicit", "explicit"), ("implicit drag", "implicit drag"), ("semi-implicit per grain", "per grain"),
                                                                   ("semi-implicit per piece", "per piece")]:
         yield Point("time schemes, steps of 1 ms", word, {"Time/Time step": 1e-3, "Coupling/Time scheme": scheme})
-    for tolerance in [] if quick else [1e-3, 1e-5, 1e-6]:
+    for tolerance in [] if quick else [1e-3, 1e-5]:
         yield Point("contact tolerance, steps chosen", "contacts %.0e" % tolerance, {"Contacts/Residual tolerance": tolerance})
-    for solver in [] if quick else ["Gauss-Seidel", "work queue"]:
+    for solver in [] if quick else ["Gauss-Seidel"]:
         yield Point("contact solver, steps chosen", solver, {"Contacts/Contact solver": solver})
-    for h in [8] if quick else [8, 4, 2, 1]:
+    for h in [8] if quick else [8, 4, 2]:
         yield Point("even cells, steps chosen", "%g d" % h, cells(h))
-    for h in [] if quick else [4, 0.5]:
+    for h in [] if quick else [4]:
         yield Point("8 d, finer at the faces, steps chosen", "to %g d" % h, at_faces(h))
 
 
@@ -72,6 +74,7 @@ def claims(r):
 def says(r):
     auto, coarse = r.default, r.done("even cells, steps chosen", "8 d")
     fixed = r.done("fixed steps", "5 ms")
-    return ("Chosen steps, the default, find the onset within %.2g %%, the first movement within %.2g %% and the heave within %.2g %%; fixed steps of 5 ms take %.2g times their CPU time, for %.2g, %.2g and %.2g %%. "
+    return ("Chosen steps, the default, find the onset within %.2g %%, the first movement within %.2g %% and the heave within %.2g %%; fixed steps of 5 ms take %.2g times their CPU time, for %.2g, %.2g and %.2g %%%s. "
             "Cells of 8 d take %.2g times it, and are %.2g, %.2g and %.2g %% off."
-            % (*(100 * e for e in auto.errors.values()), fixed.cpu_s / auto.cpu_s, *(100 * e for e in fixed.errors.values()), coarse.cpu_s / auto.cpu_s, *(100 * e for e in coarse.errors.values())))
+            % (*(100 * e for e in auto.errors.values()), fixed.cpu_s / auto.cpu_s, *(100 * e for e in fixed.errors.values()),
+               ": the default is not on the front" if all(auto not in r.front(name) for name in r.error_names()) else "", coarse.cpu_s / auto.cpu_s, *(100 * e for e in coarse.errors.values())))

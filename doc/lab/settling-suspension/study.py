@@ -33,7 +33,7 @@ def points(quick):
                                                                   ("semi-implicit per piece", "per piece")]:
         yield Point("time schemes, cells of 2 d, 1 ms", word, {"Coupling/Time scheme": scheme})
     for name, radius, shape, h in [("filter grain, 2 d", "grain", "even", 2)] if quick else [
-            ("filter grain, 4 d", "grain", "even", 4), ("filter grain, 2 d", "grain", "even", 2), ("filter grain, 1 d", "grain", "even", 1),
+            ("filter grain, 2 d", "grain", "even", 2), ("filter grain, 1 d", "grain", "even", 1),
             ("smooth, 2 d", "2.5 d", "smooth", 2), ("smooth, 1 d", "2.5 d", "smooth", 1)]:
         yield Point("other filters, 1 ms", name, {"Coupling/Filter radius": radius, "Coupling/Filter shape": shape, **cells(h)})
 
