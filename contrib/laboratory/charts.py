@@ -89,7 +89,7 @@ def work_precision_panel(axis, results, name, looks, handles):
     axis.set_xscale("log")
     axis.set_yscale("log")
     axis.wanted = []
-    handles["Pareto front: nothing is cheaper and more accurate"], = axis.plot([max(place(r), floor) for r in front], [r.cpu_s for r in front], "-", color=FRONT, lw=7, alpha=0.45, zorder=1, solid_capstyle="round",
+    handles["Pareto front: nothing is cheaper and more accurate"], = axis.plot([max(place(r), floor) for r in front], [r.cpu_s for r in front], "-", color=FRONT, lw=7, alpha=0.45, zorder=1, solid_capstyle="round", marker="o", ms=17, mec="none",
                                                                                 drawstyle="steps-post")
     for s, (colour, marker) in looks.items():
         points = [r for r in shown if r.point.series == s]
