@@ -11,6 +11,7 @@ order = 6
 scene = "jet.prm"
 limit = 400
 chart = Chart()
+floor = {"the head": 0.0075, "the grains moved": 0.016}  # what even cells of 1 d in chosen steps differ from the reference by
 
 
 def cells(h):
@@ -54,5 +55,7 @@ def claims(r):
 
 def says(r):
     best = r.cheapest("the head", 0.1)
-    return ("The cheapest setting found that knows the head within 10 %% is %s, for %.1f s of CPU time; the default (%s) is %.1f %% off for %.1f s."
-            % (best.point.name, best.cpu_s, r.default.point.label, 100 * r.default.errors["the head"], r.default.cpu_s))
+    return ("The cheapest setting found that knows the head within 10 %% is %s, for %.1f s of CPU time; the default (%s) is %.1f %% off for %.1f s. "
+            "Cells that only follow jumps of the velocity miss the bed's faces, and %.0f %% of the head; fewer terms on the open boundary change nothing here, but cost half as much again."
+            % (best.point.name, best.cpu_s, r.default.point.label, 100 * r.default.errors["the head"], r.default.cpu_s,
+               100 * r.error("adaptive cells, chosen steps", "velocity jump, to 2 d", "the head")))
