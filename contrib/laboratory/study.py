@@ -116,7 +116,10 @@ class Results:
         return self.done(series, label).cpu_s
 
     def error(self, series, label, name="error"):
-        return self.done(series, label).errors[name]
+        errors = self.done(series, label).errors
+        if name not in errors:
+            raise Missing("%s, %s has no error of '%s', or the reference is missing" % (series, label, name))
+        return errors[name]
 
     @property
     def default(self):
