@@ -258,23 +258,23 @@ namespace alluvium
         time_step.begin(mesh_has_changed);
         if (m.has_fluid)
           {
-            const auto timer = m.timers.scope("fluid");
             m.boundary_conditions.set_time(time_step.end_of_step());
-            m.coupling.step(m.boundary_conditions, m.grains, m.touched, dt, !m.grains_move, m.loads);
-            if (!time_step.accepts_fluid())
+            if (!m.coupled_step.step(m.boundary_conditions,
+                                     {m.time, dt, m.gravity, !m.grains_move},
+                                     m.touched,
+                                     m.grains,
+                                     m.loads,
+                                     m.contact_report,
+                                     [this] { return time_step.accepts_fluid(); }))
               return false;
           }
         else
-          run::load_by_gravity(m);
-
-        if (m.grains_move)
           {
-            m.contacts.set_time(m.time);
-            if (m.has_fluid)
-              m.contact_report = m.contact_iteration.advance(m.grains, m.loads, dt, m.gravity);
-            else
+            run::load_by_gravity(m);
+            if (m.grains_move)
               {
                 const auto timer = m.timers.scope("contacts");
+                m.contacts.set_time(m.time);
                 m.contact_report = m.contacts.advance(m.grains, m.loads, dt, m.gravity);
               }
           }
@@ -308,8 +308,8 @@ namespace alluvium
     counts["contact sub-steps that stalled"] += model.contact_report.n_stalled;
     counts["contact sub-steps not converged"] += model.contact_report.n_unconverged;
     counts["linear iterations"] += model.coupling.report().n_iterations;
-    counts["repetitions of fluid and contacts"] += model.contact_iteration.n_repetitions();
-    counts["steps that ended above the tolerance of repetitions"] += !model.contact_iteration.agrees();
+    counts["repetitions of fluid and contacts"] += model.coupled_step.iteration().n_repetitions();
+    counts["steps that ended above the tolerance of repetitions"] += !model.coupled_step.iteration().agrees();
     counts["fluid steps like the last"] += model.coupling.report().steady;
     counts["linear solves above the tolerance"] += model.coupling.report().n_loose;
     counts["linear solves by the direct solver"] += model.coupling.report().n_direct;

@@ -1,3 +1,5 @@
+#include <alluvium/contacts/contact_report.h>
+#include <alluvium/coupling/coupling.h>
 #include <alluvium/observers/observer.h>
 
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+#include <alluvium/coupling/coupling.h>
 #include <alluvium/fluid/largest_speed.h>
 #include <alluvium/observers/observer.h>
 

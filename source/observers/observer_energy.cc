@@ -1,4 +1,5 @@
 #include <alluvium/fluid/energy_balance.h>
+#include <alluvium/fluid/vans_solver.h>
 #include <alluvium/observers/observer.h>
 
 #include <nlohmann/json.hpp>

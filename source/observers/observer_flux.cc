@@ -1,3 +1,4 @@
+#include <alluvium/coupling/coupling.h>
 #include <alluvium/coupling/flow_totals.h>
 #include <alluvium/observers/observer.h>
 

@@ -1,3 +1,4 @@
+#include <alluvium/coupling/coupling.h>
 #include <alluvium/coupling/homogeneous_bed.h>
 #include <alluvium/observers/observer.h>
 #include <alluvium/utilities/digits.h>

@@ -1,3 +1,4 @@
+#include <alluvium/contacts/contact_stepper.h>
 #include <alluvium/observers/observer.h>
 #include <alluvium/utilities/atomic_file.h>
 

@@ -1,3 +1,6 @@
+#include <alluvium/contacts/contact_report.h>
+#include <alluvium/coupling/coupling.h>
+#include <alluvium/grains/wall.h>
 #include <alluvium/observers/lasting_event.h>
 #include <alluvium/observers/observer.h>
 

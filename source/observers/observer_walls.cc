@@ -1,3 +1,5 @@
+#include <alluvium/contacts/contact_report.h>
+#include <alluvium/grains/wall.h>
 #include <alluvium/observers/observer.h>
 
 #include <algorithm>

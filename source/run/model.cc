@@ -17,7 +17,7 @@ namespace alluvium::run
     , coupling(space, solver)
     , store(communicator)
     , warnings(speaks)
-    , contact_iteration(coupling, contacts, timers)
+    , coupled_step(solver, coupling, contacts, timers)
   {}
 
 

@@ -219,7 +219,7 @@ namespace alluvium::run
     if (!is_automatic)
       {
         if (model.has_fluid)
-          model.solver.accept();
+          model.coupled_step.prepare();
         return;
       }
     if (again)
@@ -228,7 +228,7 @@ namespace alluvium::run
     if (model.has_fluid)
       {
         fluid_error.begin(model.solver, dt_before, is_smooth && !mesh_has_changed);
-        model.solver.accept();
+        model.coupled_step.prepare();
       }
     if (model.grains_move)
       start.remember(model.grains, model.contacts);

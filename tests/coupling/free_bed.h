@@ -3,7 +3,7 @@
 // A settled bed of free grains on the floor of a channel, with contacts.
 #include "bed.h"
 
-#include <alluvium/coupling/contact_iteration.h>
+#include <alluvium/coupling/coupled_step.h>
 
 namespace bed
 {
@@ -24,7 +24,7 @@ namespace bed
     FreeBed(const Settings &s, const FreeBedSettings &f)
       : width(f.across * d)
       , channel(width, 24. * d, s.h_over_d * d, s, 0.)
-      , iteration(channel.coupling, stepper, timers)
+      , coupled_step(channel.solver, channel.coupling, stepper, timers)
     {
       channel.solver.gravity[1] = -g;
       channel.solver.choose_datum(channel.bc);
@@ -61,12 +61,11 @@ namespace bed
     void step(const bool fixed = false)
     {
       auto &c = channel;
-      c.solver.accept();
-      c.coupling.step(c.bc, grains, touched, c.settings.dt, fixed, c.loads);
-      if (fixed)
-        return;
-      report  = iteration.advance(grains, c.loads, c.settings.dt, {{0., -g}});
-      touched = stepper.touched();
+      coupled_step.prepare();
+      coupled_step.step(c.bc, {time, c.settings.dt, {{0., -g}}, fixed}, touched, grains, c.loads, report);
+      time += c.settings.dt;
+      if (!fixed)
+        touched = stepper.touched();
     }
 
     double flux() const { return channel.solver.flux(3); }
@@ -83,11 +82,11 @@ namespace bed
       return sum / grains.n();
     }
 
-    double                             width, onset = 0.; // [m], and the reduced weight over the width [Pa]
+    double                             width, onset = 0., time = 0.; // [m], reduced weight over width [Pa], [s]
     Channel                            channel;
     alluvium::contacts::ContactStepper stepper;
     alluvium::Timers                   timers;
-    coupling::ContactIteration         iteration;
+    coupling::CoupledStep              coupled_step;
     grains::GrainArrays                grains;
     std::vector<std::uint8_t>          touched;
     alluvium::contacts::ContactReport  report;

@@ -78,8 +78,8 @@ namespace
           continue;
         result.flux.push_back(free.flux() / fixed.flux());
         result.error.push_back(free.prediction_error() * free.width / fixed.flux());
-        result.n_repetitions += free.iteration.n_repetitions();
-        EXPECT_TRUE(free.iteration.agrees());
+        result.n_repetitions += free.coupled_step.iteration().n_repetitions();
+        EXPECT_TRUE(free.coupled_step.iteration().agrees());
       }
     return result;
   }
@@ -120,8 +120,8 @@ namespace
     bed.set_head(0.6);
     const auto before = bed.grains;
     bed.step();
-    EXPECT_GT(bed.iteration.n_repetitions(), 0u);
-    EXPECT_TRUE(bed.iteration.agrees());
+    EXPECT_GT(bed.coupled_step.iteration().n_repetitions(), 0u);
+    EXPECT_TRUE(bed.coupled_step.iteration().agrees());
     const auto &r = bed.channel.coupling.report();
     EXPECT_LT(std::hypot(r.unseen_force[0], r.unseen_force[1]), 1e-8 * r.force_scale);
     // grain by grain: m (v - v^n)/dt = reduced weight + force that the fluid received + contacts
@@ -182,7 +182,7 @@ namespace
       {
         const auto before = bed.grains;
         bed.step();
-        n_tight += bed.report.hasty ? 0 : bed.iteration.n_repetitions() > 0;
+        n_tight += bed.report.hasty ? 0 : bed.coupled_step.iteration().n_repetitions() > 0;
         coupling::GrainMotion motion{bed.grains.velocity, bed.grains.omega};
         for (unsigned int d = 0; d < 2; ++d)
           for (std::size_t g = 0; g < before.n(); ++g)
@@ -196,13 +196,13 @@ namespace
             sum[i % 2] += unseen[i];
             square += unseen[i] * unseen[i];
           }
-        const double tolerance = bed.iteration.n_repetitions() == 0 ? 0.1 * s.tolerance : s.tolerance;
+        const double tolerance = bed.coupled_step.iteration().n_repetitions() == 0 ? 0.1 * s.tolerance : s.tolerance;
         const double ratio =
           std::max(std::sqrt(2. * square / unseen.size()) / (tolerance * c.typical_force(bed.grains)),
                    std::hypot(sum[0], sum[1]) / (0.1 * tolerance * c.report().force_scale));
         if (std::abs(ratio - 1.) > 1e-6)
           {
-            EXPECT_EQ(bed.iteration.agrees(), ratio < 1.) << "step " << k << ": " << ratio << " of the tolerance";
+            EXPECT_EQ(bed.coupled_step.iteration().agrees(), ratio < 1.) << "step " << k << ": " << ratio << " of the tolerance";
           }
       }
     EXPECT_GT(n_tight, 0u);
@@ -255,7 +255,7 @@ namespace
             bed->set_head(3.);
             bed->step();
           }
-        EXPECT_TRUE(exact.iteration.agrees());
+        EXPECT_TRUE(exact.coupled_step.iteration().agrees());
         result.deviation = std::max(result.deviation, largest_deviation(exact, before) * exact.width / exact.flux());
       }
     for (std::size_t g = 0; g < exact.grains.n(); ++g)

@@ -7,6 +7,7 @@
 // Each is a class that implements an interface, and a line that registers it. Nothing else knows of them: a scene names
 // the library and chooses from it. See README.md.
 
+#include <alluvium/coupling/coupling.h>
 #include <alluvium/coupling/drag_law.h>
 #include <alluvium/fluid/boundary_plugin.h>
 #include <alluvium/observers/observer.h>

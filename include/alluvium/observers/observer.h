@@ -1,7 +1,5 @@
 #pragma once
 
-#include <alluvium/contacts/contact_stepper.h>
-#include <alluvium/coupling/coupling.h>
 #include <alluvium/grains/bed_faces.h>
 #include <alluvium/grains/leavers.h>
 #include <alluvium/observers/mesh_change.h>
@@ -12,9 +10,39 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <mpi.h>
+
 #include <limits>
 #include <string>
 #include <vector>
+
+// An observer includes what it looks at: coupling/coupling.h for the fluid, contacts/contact_stepper.h for the
+// contacts.
+namespace alluvium::contacts
+{
+  struct ContactReport;
+  class ContactStepper;
+} // namespace alluvium::contacts
+
+namespace alluvium::coupling
+{
+  class Coupling;
+}
+
+namespace alluvium::fluid
+{
+  template <int dim>
+  class BoundaryConditions;
+  template <int dim>
+  class FluidSpace;
+  template <int dim>
+  class VansSolver;
+} // namespace alluvium::fluid
+
+namespace alluvium::grains
+{
+  struct WallSegment;
+}
 
 namespace alluvium::observers
 {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <alluvium/contacts/contact_stepper.h>
-#include <alluvium/coupling/contact_iteration.h>
+#include <alluvium/coupling/coupled_step.h>
 #include <alluvium/coupling/coupling.h>
 #include <alluvium/fluid/boundary_conditions.h>
 #include <alluvium/fluid/field_transfer.h>
@@ -67,7 +67,7 @@ namespace alluvium::run
     contacts::ContactStepper                         contacts;
     Timers                                           timers;
     Warnings                                         warnings;
-    coupling::ContactIteration                       contact_iteration;
+    coupling::CoupledStep                            coupled_step;
     std::unique_ptr<fluid::FieldTransfer<dim>>       transfer;
 
     // of the latest step
