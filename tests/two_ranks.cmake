@@ -9,10 +9,14 @@ foreach(_set "mesh:*:2:two" "refinement:*:2:two" "fluid:*Checkpoint*:2:two_check
   list(GET _set 2 _n)
   list(GET _set 3 _name)
   if(TARGET test_${_room} AND ALLUVIUM_MPIEXEC)
+    set(_labels unit mpi)
+    if(_filter STREQUAL "Ranks*" AND _n GREATER 2)
+      list(APPEND _labels slow)
+    endif()
     add_test(NAME ${_room}.on_${_name}_ranks
              COMMAND ${ALLUVIUM_MPIEXEC} -np ${_n} $<TARGET_FILE:test_${_room}> --gtest_filter=${_filter})
     # for Open MPI, as root and on small machines
-    set_tests_properties(${_room}.on_${_name}_ranks PROPERTIES TIMEOUT ${_time_limit} PROCESSORS 2 LABELS "unit;mpi" ENVIRONMENT
+    set_tests_properties(${_room}.on_${_name}_ranks PROPERTIES TIMEOUT ${_time_limit} PROCESSORS 2 LABELS "${_labels}" ENVIRONMENT
       "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_mpi_yield_when_idle=1")
   endif()
 endforeach()

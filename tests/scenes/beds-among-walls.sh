@@ -1,6 +1,7 @@
 #!/bin/bash
 # Beds settle around what stands in the domain: a pile of the mesh, a slope, a plate; whatever way gravity points. They stay when
 # the run starts.
+# SLOW
 . "$SCENES/functions"
 at_rest() { # FOLDER NUMBER
   /usr/bin/python3 - "$1" "$2" <<'END' || fail "$1: the bed moves"

@@ -1,6 +1,7 @@
 #!/bin/bash
 # Correct runs in which the kinetic energy is next to none at times are not taken for run-aways: a grain that bounces, at its highest
 # point, grains that overlap a little without gravity, and soft ones, while their springs hold it.
+# SLOW
 . "$SCENES/functions"
 cat >scene.prm <<'END2'
 set Gravity = 0, -9.81

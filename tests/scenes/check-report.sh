@@ -1,5 +1,6 @@
 #!/bin/bash
 # What --check says of a scene, against formulas, and its permeability against the run's own.
+# SLOW
 . "$SCENES/functions"
 scene_from bed <<'END'
 subsection Time

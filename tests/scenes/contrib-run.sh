@@ -1,5 +1,6 @@
 #!/bin/bash
 # contrib/run from a scene to its pictures, a result that stands there replaced. (The program is built already.)
+# SLOW
 . "$SCENES/functions"
 scene_from tiny <<'END_OF_SCENE'
 subsection Output

@@ -1,6 +1,7 @@
 #!/bin/bash
 # A bed at rest whose moments are corrected, between walls and periodic, with rolling friction: the same to all 15 digits on two ranks, and
 # after a restart on another number of them. Walls carry the weight, and the smooth velocity is below its tolerance.
+# SLOW
 . "$SCENES/functions"
 
 for sides in walls periodic; do

@@ -1,5 +1,6 @@
 #!/bin/bash
 # A checkpoint that is damaged, cut off or missing is refused with one message, and the folder stays as it was.
+# SLOW
 . "$SCENES/functions"
 scene=tiny.prm
 scene_from tiny </dev/null

@@ -1,6 +1,7 @@
 #!/bin/bash
 # What the program says of a drag law: range, permeability and fluidisation velocity of the bed before the run, and one warning after
 # it that names the grains which the law was not made for.
+# SLOW
 . "$SCENES/functions"
 scene_from bed <<'END'
 subsection Time

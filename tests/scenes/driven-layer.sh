@@ -1,6 +1,7 @@
 #!/bin/bash
 # What drives a periodic layer: gravity along it, a mean pressure gradient or a body force do the same; a gradient can hold
 # gravity, as the pressure of fluid at rest does elsewhere, and cannot be given where there are boundaries.
+# SLOW
 . "$SCENES/functions"
 scene_from layer <<'END'
 END

@@ -1,5 +1,6 @@
 #!/bin/bash
 # However a run ends, summary.json says how, log.txt has what was printed, and there is a checkpoint to go on from.
+# SLOW
 . "$SCENES/functions"
 
 ended() { # LINES of `path = regex`

@@ -1,6 +1,7 @@
 #!/bin/bash
 # Files as users have them: byte order marks, folders in the place of files, caches that are cut off, folders that another run uses, long
 # paths, ranks without grains.
+# SLOW
 . "$SCENES/functions"
 scene_from tiny </dev/null
 

@@ -2,6 +2,7 @@
 # A fluid through a bed, and grains that settle, give the same statistics on one, two and four ranks, to 1e-8 of each column's largest
 # value, where the linear solver's tolerance is tight. (Beds that are being lifted do not: what contacts leave open, their tolerance, is
 # filled by round-off.)
+# SLOW
 . "$SCENES/functions"
 
 scene_from bed </dev/null

@@ -1,6 +1,7 @@
 #!/bin/bash
 # A given velocity is a flux, on every mesh: through a slot narrower than a cell, under a bed that rests on the inlet, beside
 # no-slip walls, on ranks. Parts of sides by name.
+# SLOW
 . "$SCENES/functions"
 scene_from tiny <<'END'
 subsection Boundary conditions

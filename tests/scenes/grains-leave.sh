@@ -1,5 +1,6 @@
 #!/bin/bash
 # A grain that leaves through an open side is taken out and counted, the run goes on: on ranks, over restarts, and without any grain left.
+# SLOW
 . "$SCENES/functions"
 scene_from bed <<'END'
 subsection Time

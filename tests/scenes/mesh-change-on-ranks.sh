@@ -1,6 +1,7 @@
 #!/bin/bash
 # A bed is thrown up on two ranks, in short steps, and its mesh changes dozens of times: also where a rank owns as many nodes as before
 # and has other neighbours. Each step is that of one rank, until round-off has grown.
+# SLOW
 . "$SCENES/functions"
 scene_from bed <<'END'
 subsection Mesh refinement

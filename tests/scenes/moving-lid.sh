@@ -1,6 +1,7 @@
 #!/bin/bash
 # A boundary that moves along itself works on the fluid: where viscosity reaches less than a cell in a step, most of that work gives its
 # layer of cells their momentum, and is no divergence. In the end the flow is Couette's, and the lid's power eta U^2 / H.
+# SLOW
 . "$SCENES/functions"
 ln -s "$SCENES/data/cavity.prm" .
 n=0

@@ -2,6 +2,7 @@
 # Plug-ins from a shared library (tests/plugin/plugins.cc) that the scene names: a drag law whose flux follows its parameter, boundary
 # conditions that do what a formula does, with --check, --print-parameters, on two ranks, in a restart and from the
 # parameters.prm of the run; and what is said of libraries that are no good.
+# SLOW
 . "$SCENES/functions"
 mkdir scene elsewhere && mv data scene && cp "$TEST_PLUGINS" scene/libplug-ins.so
 { echo "include $SCENES/data/bed.prm" && cat; } >scene/bed.prm <<'END'

@@ -1,6 +1,7 @@
 #!/bin/bash
 # Killed or stopped at random moments and resumed, a run leaves the same statistics.csv and summary.json as an undisturbed one that
 # writes no checkpoints. MORE=1 (ctest -L restart): 20 ends each, all time schemes, contact solvers and kinds of mesh.
+# SLOW
 . "$SCENES/functions"
 
 lifted=$'subsection Mesh refinement\n set Interval = 4\n subsection Criteria: bed faces\n  set Half width = 1\n end\nend

@@ -1,6 +1,7 @@
 #!/bin/bash
 # A restart refuses changed parameters that it would ignore, by name, and leaves the folder as it was; lists those that it takes; keeps
 # the clock when the time step changes; needs no deposit; and says that its end has passed.
+# SLOW
 . "$SCENES/functions"
 scene_from bed <<'END'
 subsection Output

@@ -1,6 +1,7 @@
 #!/bin/bash
 # A restart with other walls, or other laws of contact, takes them: what was at rest wakes, walls in new places stand where their motion
 # has brought them, and columns come and go. A restart without changes is tested elsewhere (restart.sh).
+# SLOW
 . "$SCENES/functions"
 
 # column FILE NAME: its last value

@@ -2,6 +2,7 @@
 # A run in two parts is the run in one, which writes no checkpoint: 20 steps at once against 10, a checkpoint, and 10 more. On the
 # number of ranks that wrote the checkpoint not one of 17 digits may differ, nor summary.json but for its timings. On other ranks
 # round-off differs, which moving contacts amplify: there a bed at rest, with tight tolerances.
+# SLOW
 . "$SCENES/functions"
 
 # two_parts RANKS: whole/ with ${common} options, half/ with ${common} and ${every}, continued on RANKS.

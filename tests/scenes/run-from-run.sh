@@ -1,5 +1,6 @@
 #!/bin/bash
 # A run that starts with the grains of another one's end: dry settling, then water.
+# SLOW
 . "$SCENES/functions"
 scene_from bed </dev/null
 for mass in 'contact radius' 'fluid radius'; do

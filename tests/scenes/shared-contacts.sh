@@ -1,6 +1,7 @@
 #!/bin/bash
 # Ranks that share the contacts of a moving dry bed print what one rank alone does, to all 15 digits, force chains included; also where a
 # checkpoint of one rank is continued on others.
+# SLOW
 . "$SCENES/functions"
 
 echo $'subsection Fluid\n set Model = none\nend\nset Gravity = 5, -8' | scene_from bed

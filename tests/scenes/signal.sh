@@ -1,5 +1,6 @@
 #!/bin/bash
 # A signal ends a run after its present step: exit code 0, a checkpoint, a valid summary that says so, and a run that can go on.
+# SLOW
 . "$SCENES/functions"
 scene_from bed <<END
 subsection Contacts

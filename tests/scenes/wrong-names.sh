@@ -1,5 +1,6 @@
 #!/bin/bash
 # Names and places that observers look for are those of the scene: what is not there is a mistake, in --check too, and is named.
+# SLOW
 . "$SCENES/functions"
 scene_from bed </dev/null
 refused() { # REGEX SETTING...

@@ -1,5 +1,6 @@
 #!/bin/bash
 # Scenes in millimetres, and beds that cannot fit, are refused at once and in little memory; wide boxes with few grains are not.
+# SLOW
 . "$SCENES/functions"
 ulimit -v 8000000
 
