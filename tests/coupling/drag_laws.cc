@@ -1,12 +1,11 @@
 // The registered drag laws: against numbers worked out from the published formulas, in the normalisation of each paper,
 // with 30 digits; over the whole range that they may be asked for; and what a homogeneous bed makes of them.
-#include "bed.h"
+#include "named_law.h"
 
 #include <alluvium/coupling/homogeneous_bed.h>
 
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <limits>
 
 namespace
@@ -15,20 +14,7 @@ namespace
   using bed::coupling::DragState;
   using Registry = alluvium::Registry<DragLaw>;
 
-  constexpr double d = 2.2e-4, rho = 1000., eta = 1e-3;
-
-  struct Law
-  {
-    explicit Law(const std::string &name)
-      : law(Registry::entries().at(name).create())
-    {
-      law->add_parameters(prm);
-    }
-    double gamma(const double eps, const double u) const { return law->gamma({eps, u, d, rho, eta}); }
-
-    std::unique_ptr<DragLaw> law;
-    dealii::ParameterHandler prm;
-  };
+  using bed::d, bed::rho, bed::eta, bed::Law;
 
   /** The slip at which the Reynolds number is @p re. */
   double slip(const double eps, const double re)
@@ -187,39 +173,5 @@ TEST(DragLaws, GrainsOutsideTheRangeAreNamed)
         EXPECT_EQ(ids, std::vector<bed::grains::GrainId>({7})) << name;
       else
         EXPECT_TRUE(ids.empty()) << name;
-    }
-}
-
-// The table of doc/drag.md: grains of 0.22 mm and 2630 kg/m^3 in water at a void fraction of 0.48.
-TEST(DragLawsValidation, Table)
-{
-  bed::grains::GrainArrays grains;
-  grains.resize(1);
-  grains.radius[0] = grains.fluid_radius[0] = 0.5 * d;
-  grains.mass[0]                            = 2630. * dealii::numbers::PI * d * d / 4.;
-  bed::fluid::FluidProperties fluid;
-  fluid.density   = rho;
-  fluid.viscosity = eta;
-  const bed::coupling::HomogeneousBed homogeneous{grains, fluid, 0.48};
-  const double                        dallavalle = homogeneous.permeability(*Law("sphere").law);
-  std::printf("| law | void fraction | Reynolds number to | K / d^2 | K over that of `sphere` | fluidised at [mm/s] |\n"
-              "|---|---|---|---|---|---|\n");
-  for (const auto &[name, entry] : Registry::entries())
-    {
-      if (name.find("(test)") != std::string::npos)
-        continue;
-      const Law    law(name);
-      const auto   range = law.law->range();
-      const double K     = homogeneous.permeability(*law.law);
-      EXPECT_GT(K / dallavalle, 0.5) << name;
-      EXPECT_LT(K / dallavalle, 2.) << name;
-      std::printf("| `%s` | %g to %g | %g | %.3e | %.3f | %.3f |\n",
-                  name.c_str(),
-                  range.eps_min,
-                  range.eps_max,
-                  range.re_max,
-                  K / (d * d),
-                  K / dallavalle,
-                  1e3 * homogeneous.fluidisation_velocity(*law.law, 9.81));
     }
 }

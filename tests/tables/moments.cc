@@ -1,7 +1,7 @@
 // What grains do with the moment correction and without: slopes, a collapse, a silo, a drum. Flows of grains are
 // chaotic: a third run, that solves contacts in another order, shows how far apart two runs of the same scene are
 // anyway. contrib/validate moments prints the tables.
-#include "silo.h"
+#include "../contacts/silo.h"
 
 #include <alluvium/deposits/deposit.h>
 #include <alluvium/utilities/plugin.h>
@@ -125,7 +125,7 @@ namespace
   };
 } // namespace
 
-TEST(MomentValidation, Slope)
+TEST(MomentsTable, Slope)
 {
   std::printf("\n| moments are corrected | flows at [degrees] | 1 degree below, in 0.5 s: way / d, rms | largest | "
               "corrections | 4 degrees above: mean speed from 0.3 to 0.6 s / sqrt(g d) |\n|---|---|---|---|---|---|\n");
@@ -168,7 +168,7 @@ TEST(MomentValidation, Slope)
 }
 
 // A column whose side wall is taken away: an avalanche, then a pile.
-TEST(MomentValidation, Collapse)
+TEST(MomentsTable, Collapse)
 {
   std::printf("\n| moments are corrected | 9 of 10 grains within [d] | height [d] | mean height [d] | pile, in 0.5 "
               "s: way / d, rms | largest | corrections |\n|---|---|---|---|---|---|---|\n");
@@ -212,7 +212,7 @@ TEST(MomentValidation, Collapse)
 }
 
 // The floor sinks so slowly that the grains count as at rest.
-TEST(MomentValidation, Silo)
+TEST(MomentsTable, Silo)
 {
   std::printf("\n| moments are corrected | rows | floor force / weight | over Janssen's | wall friction used | wall "
               "pressure / stress | corrections |\n|---|---|---|---|---|---|---|\n");
@@ -285,7 +285,7 @@ namespace
 } // namespace
 
 // In a drum that turns nothing is at rest: the correction has nothing to say, to the bit.
-TEST(MomentValidation, DrumTurns)
+TEST(MomentsTable, DrumTurns)
 {
   std::vector<double> x[2];
   for (const bool corrects : {false, true})
@@ -302,7 +302,7 @@ TEST(MomentValidation, DrumTurns)
 }
 
 // Seen from a drum that turns slowly it is gravity that turns: the bed stands until an avalanche goes down.
-TEST(MomentValidation, Drum)
+TEST(MomentsTable, Drum)
 {
   std::printf("\n| moments are corrected | lean of the grains [degrees]: mean | standard deviation | largest | "
               "avalanches | corrections |\n|---|---|---|---|---|---|\n");
