@@ -184,9 +184,9 @@ TEST(DepositsAmongWalls, WantedPacking)
   const auto   c      = context({wall(3e-3, 2e-3, 3e-3, 8e-3)});
   const double wanted = 0.79;
   const auto   seeds =
-    make("settled bed", "set Number of grains = 900\nset Cache folder =\nset Packing fraction = 0.79", c);
-  const double left  = packing(seeds, 0.5e-3, 0.5e-3, 2.5e-3, 4e-3),
-               right = packing(seeds, 3.5e-3, 0.5e-3, 5.5e-3, 4e-3);
+    make("settled bed", "set Number of grains = 550\nset Cache folder =\nset Packing fraction = 0.79", c);
+  const double left  = packing(seeds, 0.5e-3, 0.5e-3, 2.5e-3, 3e-3),
+               right = packing(seeds, 3.5e-3, 0.5e-3, 5.5e-3, 3e-3);
   EXPECT_NEAR(0.5 * (left + right), wanted, 0.015);
 }
 
