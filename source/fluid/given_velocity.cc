@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string>
 
 namespace alluvium::fluid
 {
@@ -11,9 +13,20 @@ namespace alluvium::fluid
 
   namespace
   {
-    // a formula is looked at in each of so many pieces of a face, so that narrow slots are not missed
-    constexpr unsigned int n_pieces  = 16;
+    constexpr const char *jumping[] = {"if", "rint", "int", "floor", "ceil", "sign", "abs", "min", "max", "rand"};
+
+    // a formula is looked at in each of so many pieces of a face: more where it may jump, for narrow slots
+    constexpr unsigned int n_pieces_of_smooth = 16, n_pieces_of_others = 256;
     constexpr unsigned int max_depth = 40;
+
+    /** May the formula have jumps? Functions that are not formulas may. */
+    bool may_jump(const std::string &text)
+    {
+      return text.empty() || text.find_first_of("<>?=!&|%") != std::string::npos ||
+             std::any_of(std::begin(jumping), std::end(jumping), [&](const char *word) {
+               return text.find(word) != std::string::npos;
+             });
+    }
 
     // fluid is not made faster than this where grains take nearly all room
     constexpr double least_void_fraction = 0.1;
@@ -23,12 +36,13 @@ namespace alluvium::fluid
     using Moments = std::array<Tensor<1, dim>, 3>;
 
     template <int dim, typename Velocity>
-    Moments<dim> gauss(const Velocity &velocity, const double a, const double b)
+    Moments<dim> lobatto(const Velocity &velocity, const double a, const double b)
     {
-      static const double x[] = {0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)},
-                          w[] = {5. / 18., 8. / 18., 5. / 18.};
+      // with the ends, or a jump could hide between the last point of a piece and the first of the next
+      static const double x[] = {0., 0.5 - std::sqrt(0.05), 0.5 + std::sqrt(0.05), 1.},
+                          w[] = {1. / 12., 5. / 12., 5. / 12., 1. / 12.};
       Moments<dim> sum;
-      for (unsigned int q = 0; q < 3; ++q)
+      for (unsigned int q = 0; q < 4; ++q)
         {
           const double s = a + x[q] * (b - a);
           const auto   u = w[q] * (b - a) * velocity(s);
@@ -49,7 +63,7 @@ namespace alluvium::fluid
                        const unsigned int  depth)
     {
       const double middle = 0.5 * (a + b);
-      const auto   left = gauss<dim>(velocity, a, middle), right = gauss<dim>(velocity, middle, b);
+      const auto   left = lobatto<dim>(velocity, a, middle), right = lobatto<dim>(velocity, middle, b);
       Moments<dim> sum;
       double       defect = 0.;
       for (unsigned int i = 0; i < 3; ++i)
@@ -67,7 +81,8 @@ namespace alluvium::fluid
     }
 
     template <int dim, typename Velocity>
-    Moments<dim> integrate_part(const Velocity &velocity, const double from, const double to)
+    Moments<dim>
+    integrate_part(const Velocity &velocity, const double from, const double to, const unsigned int n_pieces)
     {
       Moments<dim> sum;
       double       size = 0.;
@@ -78,7 +93,7 @@ namespace alluvium::fluid
       for (unsigned int i = 0; i < n_pieces; ++i)
         {
           const double a = from + i * step, b = i + 1 == n_pieces ? to : a + step;
-          const auto   m = halve<dim>(velocity, a, b, gauss<dim>(velocity, a, b), 1e-13 * size * (to - from), 0);
+          const auto   m = halve<dim>(velocity, a, b, lobatto<dim>(velocity, a, b), 1e-13 * size * (to - from), 0);
           for (unsigned int k = 0; k < 3; ++k)
             sum[k] += m[k];
         }
@@ -107,7 +122,8 @@ namespace alluvium::fluid
         const auto  velocity  = [&](const double s) {
           return velocity_at(condition, Point<dim>((1. - s) * face.end[0] + s * face.end[1]));
         };
-        Moments m = integrate_part<dim>(velocity, face.from, face.to);
+        Moments m = integrate_part<dim>(
+          velocity, face.from, face.to, may_jump(condition.text) ? n_pieces_of_others : n_pieces_of_smooth);
         for (auto &moment : m)
           moment *= face.length();
         moments.push_back(m);

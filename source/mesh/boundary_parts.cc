@@ -1,4 +1,5 @@
 #include <alluvium/mesh/boundary_parts.h>
+#include <alluvium/utilities/digits.h>
 #include <alluvium/utilities/expression.h>
 #include <alluvium/utilities/user_error.h>
 
@@ -51,8 +52,32 @@ namespace alluvium::mesh
           const bool below               = (i == 0) == (signs[0] == '<'); // is it the lower bound?
           (below ? part.low : part.high) = value;
         }
-      check_user(axis >= 0 && part.low < part.high, expected);
+      check_user(axis >= 0, expected);
+      check_user(part.low < part.high,
+                 where + ": '" + item + "': the range '" + range + "' ends before it begins, or where it begins.");
       part.axis = axis;
+    }
+
+    /** A range that reaches beyond its side would bring less than its text says. */
+    void
+    check_reach(const std::string &item, const geometry::BoundaryPart &part, const std::vector<BoundarySide> &sides)
+    {
+      double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+      for (const auto &side : sides)
+        if (side.id == part.side)
+          for (const auto &end : {side.a, side.b})
+            {
+              low  = std::min(low, end[part.axis]);
+              high = std::max(high, end[part.axis]);
+            }
+      const double tolerance = 1e-9 * (high - low);
+      const bool   begins    = part.low == std::numeric_limits<double>::lowest() || part.low >= low - tolerance,
+                 ends        = part.high == std::numeric_limits<double>::max() || part.high <= high + tolerance;
+      const std::string axis = part.axis == 0 ? "x" : "y";
+      check_user(begins && ends,
+                 where + ": '" + item + "' reaches beyond '" + part.side_name + "', which goes from " + axis + " = " +
+                   in_digits(low) + " to " + in_digits(high) + " m. For all of it from or up to a point write `" +
+                   axis + " > ...` or `" + axis + " < ...`.");
     }
 
     double length_of(const std::vector<geometry::BoundaryPart> &parts,
@@ -102,6 +127,7 @@ namespace alluvium::mesh
         parse_range(item, dealii::Utilities::trim(item.substr(colon + 1)), part);
         check_user(length_of({part}, sides, part.id) > 0.,
                    where + ": '" + item + "': no point of '" + side + "' lies there.");
+        check_reach(item, part, sides);
         for (const auto &other : parts)
           if (other.side == part.side)
             {

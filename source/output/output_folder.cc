@@ -35,6 +35,24 @@ namespace alluvium::output
       throw UserError(complaint + std::strerror(reason) + ".");
     }
 
+    /** Is it a folder of this program's files alone, however far it came with them? */
+    bool holds_a_checkpoint_only(const fs::directory_entry &entry)
+    {
+      if (!entry.is_directory())
+        return false;
+      for (const auto &file : fs::directory_iterator(entry))
+        {
+          fs::path path = file.path().filename();
+          if (path.extension() == ".tmp")
+            path = path.stem();
+          const std::string name = path.string();
+          if (!file.is_regular_file() || !(name == "state" || name == "history" || name == "solver" ||
+                                           name == "grains" || name.compare(0, 5, "fluid") == 0))
+            return false;
+        }
+      return true;
+    }
+
     /** What a run writes, and nothing else that somebody may have put beside it. */
     bool is_of_a_run(const fs::directory_entry &entry)
     {
@@ -43,7 +61,7 @@ namespace alluvium::output
         path = path.stem();
       const std::string name = path.string(), extension = path.extension().string();
       if (name.compare(0, 10, "checkpoint") == 0) // a folder; one left over would be what a restart starts from
-        return true;
+        return holds_a_checkpoint_only(entry);
       if (!entry.is_regular_file())
         return false;
       for (const std::string ours : {".vtu", ".pvtu", ".pvd", ".vtp", ".h5", ".xdmf"})

@@ -1,5 +1,6 @@
 #include <alluvium/mesh/domain.h>
 #include <alluvium/refinement/adaptivity.h>
+#include <alluvium/utilities/digits.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/mpi.h>
@@ -124,6 +125,9 @@ namespace alluvium::refinement
   template <int dim>
   void Adaptivity<dim>::check_mesh(const Triangulation<dim> &triangulation) const
   {
+    check_user(finest <= coarsest,
+               "Mesh refinement: 'Finest cell size' = " + in_digits(finest) +
+                 " is larger than 'Coarsest cell size' = " + in_digits(coarsest) + ", in mean grain diameters.");
     check_user(
       interval == 0 || triangulation.all_reference_cells_are_hyper_cube(),
       "Mesh refinement/Interval: a mesh of triangles cannot be adapted (deal.II refines quadrilaterals in parallel). "

@@ -50,18 +50,22 @@ namespace alluvium::run
           const auto &c = m.boundary_conditions.all().at(id);
           if (flux != 0. || !(c.may_depend_on("x") || c.may_depend_on("y")) || c.may_depend_on("t"))
             continue;
-          double largest = 0.;
+          double largest = 0., largest_across = 0.; // across: what would be a flux
           for (const auto &face : m.space.boundary().inflow_faces())
             if (face.boundary == id)
               for (unsigned int i = 0; i <= 100; ++i)
                 {
                   const double            s = face.from + 0.01 * i * (face.to - face.from);
                   const Point<Model::dim> point((1. - s) * face.end[0] + s * face.end[1]);
+                  Tensor<1, Model::dim>   u;
                   for (unsigned int d = 0; d < Model::dim; ++d)
-                    largest = std::max(largest, std::abs(m.boundary_conditions.value(c, point, d)));
+                    u[d] = m.boundary_conditions.value(c, point, d);
+                  largest        = std::max(largest, u.norm());
+                  largest_across = std::max(largest_across, std::abs(u * face.normal));
                 }
           check_user(
-            Utilities::MPI::max(largest, m.communicator) > 0.,
+            Utilities::MPI::max(largest, m.communicator) > 0. &&
+              !(Utilities::MPI::max(largest_across, m.communicator) > 0.),
             "Boundary conditions/Velocity: '" + c.text + "' is zero everywhere on '" + c.name +
               "': the inlet lies beside it, or is too narrow to be seen. Name it with Domain/Named parts, such "
               "as `inlet = bottom: 0.014 < x < 0.016`.");

@@ -6,6 +6,7 @@
 #include <alluvium/run/restart_walls.h>
 #include <alluvium/utilities/checked_file.h>
 #include <alluvium/utilities/first_rank.h>
+#include <alluvium/utilities/input_files.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/mpi.h>
@@ -177,6 +178,7 @@ namespace alluvium::run
         if (const auto fixed = before.find("Grains/Fixed"); fixed == before.end() || fixed->second != "true")
           read([&] { time = state.at("time"); });
         fit_to_walls(archive, walls_of(before, m.domain), m.contacts.walls(), time, m.time_step);
+        check_room_at_walls(archive, m.contacts.walls(), m.grains, m.domain.periodicity());
       }
     m.contacts.set_archive(archive);
     read([&] {
@@ -192,6 +194,12 @@ namespace alluvium::run
       m.touched = history.get_vector<std::uint8_t>();
       m.contacts.load(history);
     });
+    for (const auto &[path, digest] : m.inputs)
+      if (m.speaks && fs::exists(path) && digest_of_file(path) != digest)
+        m.warnings.add("Output/Restart: '" + path +
+                         "' is not what this run began with; the grains are those of the checkpoint, and what has "
+                         "changed in the file is ignored",
+                       m.time);
     if (change_contacts(changes))
       m.contacts.forget_search(); // and what rests
   }

@@ -1,5 +1,8 @@
+#include <alluvium/contacts/search/contact_overlaps.h>
 #include <alluvium/contacts/search/contact_search.h>
 #include <alluvium/run/restart_walls.h>
+#include <alluvium/utilities/digits.h>
+#include <alluvium/utilities/user_error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -106,5 +109,33 @@ namespace alluvium::run
         kept.push_back(entry);
       }
     archive.entries = std::move(kept);
+  }
+
+
+  void check_room_at_walls(const contacts::ContactArchive &archive,
+                           const Walls                    &walls,
+                           const grains::GrainArrays      &grains,
+                           const grains::Periodicity      &periodicity)
+  {
+    contacts::WallGeometry geometry;
+    geometry.set(walls);
+    geometry.place(archive.wall_positions);
+    Walls there;
+    for (const auto &wall : geometry.segments())
+      if (wall.present)
+        there.push_back(wall);
+    if (grains.n() == 0)
+      return;
+    const double smallest = 2. * *std::min_element(grains.radius.begin(), grains.radius.end());
+    for (const auto &overlap : contacts::find_overlaps(grains, there, 0.1 * smallest, periodicity))
+      {
+        const auto   found    = std::find(grains.id.begin(), grains.id.end(), overlap.a);
+        const double diameter = 2. * grains.radius[found - grains.id.begin()];
+        check_user(
+          overlap.wall.empty() || overlap.depth <= 0.1 * diameter,
+          "Output/Restart: Grains/Extra walls, Motion of walls or Presence of walls have changed, and the wall '" +
+            overlap.wall + "' now stands in grain " + std::to_string(overlap.a) + " of the checkpoint, by " +
+            in_digits(overlap.depth / diameter) + " of its diameter. Put it where there is room.");
+      }
   }
 } // namespace alluvium::run

@@ -4,12 +4,14 @@
 #include <alluvium/run/scene_size.h>
 #include <alluvium/run/set_up.h>
 #include <alluvium/utilities/divergence.h>
+#include <alluvium/utilities/input_files.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <string>
 
@@ -182,6 +184,10 @@ namespace alluvium::run
                                : m.adaptivity.coarse_size(m.refinement_context());
         m.touched.assign(m.grains.n(), 0);
         check_scene_size(m);
+        if (m.speaks)
+          for (const std::string &path : noted_inputs())
+            if (std::filesystem::path(path).extension() == ".csv")
+              m.inputs[path] = digest_of_file(path);
       }
     double largest = 0.;
     for (const double r : m.grains.radius)

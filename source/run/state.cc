@@ -10,6 +10,7 @@ namespace alluvium::run
     json["steps"]         = n_steps;
     json["clock"]         = {clock.since, clock.n_steps, clock.dt};
     json["counts"]        = counts;
+    json["inputs"]        = inputs;
     json["coarse size"]   = coarse_size;
     json["never refines"] = never_refines;
     for (const auto &[side, d] : leavers.by_side)
@@ -27,6 +28,7 @@ namespace alluvium::run
     const auto &c    = json.at("clock");
     clock            = {c.at(0).get<double>(), c.at(1).get<unsigned int>(), c.at(2).get<double>()};
     counts           = json.at("counts").get<decltype(counts)>();
+    inputs           = json.value("inputs", decltype(inputs)()); // older ones have none
     coarse_size      = json.at("coarse size");
     never_refines    = json.at("never refines");
     initial_diameter = json.value("initial diameter", 0.); // older ones have none

@@ -99,7 +99,8 @@ namespace alluvium::run
       {
         end = 0;
       }
-    check_user(end == word.size() && end > 0 && fixed >= 1e-12 && std::isfinite(fixed),
+    check_user(end == word.size() && end > 0 && word.find_first_of("xX") == std::string::npos && fixed >= 1e-12 &&
+                 std::isfinite(fixed),
                "Time/Time step: expected `auto` or a number of seconds of at least 1e-12, got '" + text + "'.");
     model.time_step = fixed;
   }

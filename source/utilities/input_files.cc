@@ -1,6 +1,9 @@
+#include <alluvium/utilities/checked_file.h>
 #include <alluvium/utilities/input_files.h>
 
 #include <algorithm>
+#include <fstream>
+#include <sstream>
 
 namespace alluvium
 {
@@ -25,5 +28,18 @@ namespace alluvium
   const std::vector<std::string> &noted_inputs()
   {
     return all_inputs();
+  }
+
+
+  std::string digest_of_file(const std::string &path)
+  {
+    std::ifstream      in(path, std::ios::binary);
+    std::ostringstream all;
+    if (!in.good() || !(all << in.rdbuf()))
+      return "";
+    const std::string  text = all.str();
+    std::ostringstream digest;
+    digest << text.size() << ' ' << std::hex << crc32(text);
+    return digest.str();
   }
 } // namespace alluvium

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <alluvium/contacts/search/contact_archive.h>
+#include <alluvium/grains/grain_arrays.h>
+#include <alluvium/grains/periodicity.h>
 #include <alluvium/grains/wall.h>
 
 #include <vector>
@@ -19,4 +21,13 @@ namespace alluvium::run
                     const std::vector<grains::WallSegment> &now,
                     double                                  time,
                     double                                  time_step);
+
+  /**
+   * Throw UserError if a wall that stands where @p archive says presses more than a tenth of its diameter into one of
+   * @p grains: no run survives that, whatever its time step.
+   */
+  void check_room_at_walls(const contacts::ContactArchive         &archive,
+                           const std::vector<grains::WallSegment> &walls,
+                           const grains::GrainArrays              &grains,
+                           const grains::Periodicity              &periodicity);
 } // namespace alluvium::run

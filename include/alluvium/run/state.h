@@ -39,6 +39,8 @@ namespace alluvium::run
     bool                          never_refines    = false; // the mesh stays as it was made
     std::map<std::string, double> counts;                   // steps, sweeps, iterations ...
 
+    std::map<std::string, std::string> inputs; // digests of the files that the grains were made of, by path; on rank 0
+
     /** All but `touched`, which checkpoints keep beside the contacts. */
     void save(nlohmann::ordered_json &json) const;
 

@@ -10,4 +10,7 @@ namespace alluvium
 
   /** What note_input() was told, in that order, each once. */
   const std::vector<std::string> &noted_inputs();
+
+  /** Checksum of a file's content, or empty if it cannot be read. */
+  std::string digest_of_file(const std::string &path);
 } // namespace alluvium
