@@ -101,5 +101,5 @@ def beyond(r, series):
 def says(r):
     return ("The default, 'iterated', and both semi-implicit schemes are stable at every step and void fraction, up to 100 tau_p; "
             "'implicit drag' follows the line of theory at every point (%d disagree), and below a void fraction of 0.275 it is stable at no step. "
-            "'explicit' bears up to twice the step of the line at some void fractions (%d points), and none from 3 tau_p on."
+            "'explicit' bears longer steps than the line at %d points, but none from 3 tau_p on."
             % (wrong(r, "implicit drag"), beyond(r, "explicit")))
