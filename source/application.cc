@@ -166,7 +166,7 @@ namespace alluvium
     }
 
     /**
-     * End all ranks together. If all of them come here, the first that failed speaks and all return. If some failed
+     * End all ranks together. If all of them come here, the first that failed prints and all return. If some failed
      * alone, the others are waiting for them in some communication that will never come: speak and abort.
      */
     int finish(MPI_Comm communicator, const int exit_code, const std::string &message)
@@ -183,7 +183,7 @@ namespace alluvium
         MPI_Wait(&request, MPI_STATUS_IGNORE);
       else
         {
-          // Ranks give up one after the other, so that one of them speaks and not all that failed.
+          // Ranks give up one after the other, so that one of them prints and not all that failed.
           const auto deadline =
             std::chrono::steady_clock::now() + std::chrono::milliseconds(3000 + 500 * std::min(rank, 60));
           int done = 0;

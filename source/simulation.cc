@@ -139,7 +139,7 @@ namespace alluvium
 
   void Simulation::Implementation::report_restart() const
   {
-    if (!restart || !model.speaks)
+    if (!restart || !model.is_root)
       return;
     std::cout << checkpoint->description(model) << std::endl;
     for (const auto &change : changes)
@@ -308,12 +308,12 @@ namespace alluvium
     counts["contact sub-steps that stalled"] += model.contact_report.n_stalled;
     counts["contact sub-steps not converged"] += model.contact_report.n_unconverged;
     counts["linear iterations"] += model.coupling.report().n_iterations;
-    counts["repetitions of fluid and contacts"] += model.coupled_step.iteration().n_repetitions();
+    counts["repetitions of fluid and contacts"] += model.coupled_step.iteration().n_iterations();
     counts["steps that ended above the tolerance of repetitions"] += !model.coupled_step.iteration().agrees();
     counts["fluid steps like the last"] += model.coupling.report().steady;
     counts["linear solves above the tolerance"] += model.coupling.report().n_loose;
     counts["linear solves by the direct solver"] += model.coupling.report().n_direct;
-    counts["steps with cells too uneven to be cut by lines"] += model.coupling.overlap().is_too_uneven();
+    counts["steps with cells too uneven to be cut by lines"] += model.coupling.overlap().is_non_tensor();
 
     const auto warn = [&](const char *text, const double count) {
       if (count > 0.)
@@ -328,7 +328,7 @@ namespace alluvium
          model.coupling.report().n_direct);
     warn("steps had cells whose sides lie on too many different lines: grains were cut cell by cell, which takes two "
          "to four times as long",
-         model.coupling.overlap().is_too_uneven());
+         model.coupling.overlap().is_non_tensor());
   }
 
 

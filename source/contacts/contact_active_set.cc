@@ -28,7 +28,7 @@ namespace alluvium::contacts
                                 ContactCandidates         &candidates,
                                 ContactProblem            &problem)
   {
-    const double h = margins.h, delta = margins.delta, nearness = margins.nearness;
+    const double h = margins.h, delta = margins.delta, alert_distance = margins.alert_distance;
     if (!keep)
       {
         disc_takes_part.assign(candidates.discs.size(), 0);
@@ -71,7 +71,8 @@ namespace alluvium::contacts
     const auto  select_disc = [&](const std::size_t k, const PairGeometry &all, const unsigned int m) {
       ContactPair &p   = candidates.discs[k];
       const double gap = all.gap[m], approach = all.approach[m];
-      if (!(keep && disc_takes_part[k]) && gap >= nearness && (gap - nearness) * all.distance[m] + h * approach >= 0.)
+      if (!(keep && disc_takes_part[k]) && gap >= alert_distance &&
+          (gap - alert_distance) * all.distance[m] + h * approach >= 0.)
         {
           p.rn = p.rt = p.rr = 0.;
           return;
@@ -117,7 +118,8 @@ namespace alluvium::contacts
           return;
         }
       const double free_vn = (point.vx - v.x) * point.nx + (point.vy - v.y) * point.ny;
-      if (!(keep && wall_takes_part[k]) && point.gap >= nearness && point.gap - nearness + h * free_vn >= 0.)
+      if (!(keep && wall_takes_part[k]) && point.gap >= alert_distance &&
+          point.gap - alert_distance + h * free_vn >= 0.)
         {
           p.rn = p.rt = p.rr = 0.;
           return;

@@ -27,7 +27,7 @@ namespace alluvium::contacts
     return {sums[0], sums[1], sums[2]};
   }
 
-  bool is_runaway(const double largest, const MotionSums &before, const double extra)
+  bool has_diverged(const double largest, const MotionSums &before, const double extra)
   {
     return largest > 30. * (before.momentum + before.mass * extra);
   }

@@ -67,7 +67,7 @@ namespace alluvium::contacts
                           const grains::GrainLoads &loads,
                           double                    dt,
                           std::array<double, 2>     gravity,
-                          double                    haste);
+                          double                    tolerance_factor);
 
     const Cohesion *acting_cohesion() const
     {
@@ -116,7 +116,7 @@ namespace alluvium::contacts
                                                         const grains::GrainLoads   &loads,
                                                         const double                dt,
                                                         const std::array<double, 2> gravity,
-                                                        const double                haste)
+                                                        const double                tolerance_factor)
   {
     ContactReport     report;
     const std::size_t n     = grains.n();
@@ -169,7 +169,7 @@ namespace alluvium::contacts
     grains.contact_force[0].assign(n, 0.);
     grains.contact_force[1].assign(n, 0.);
     work.begin(grains, loads, shares(n));
-    substep.begin({scales, std::move(materials), &solver(), cohesion, dt / steps, haste});
+    substep.begin({scales, std::move(materials), &solver(), cohesion, dt / steps, tolerance_factor});
     for (unsigned int s = 0; s < steps; ++s)
       substep.advance(report);
     substep.finish(report);
@@ -253,9 +253,9 @@ namespace alluvium::contacts
                                         const grains::GrainLoads   &loads,
                                         const double                dt,
                                         const std::array<double, 2> gravity,
-                                        const double                haste)
+                                        const double                tolerance_factor)
   {
-    return implementation->advance(grains, loads, dt, gravity, haste);
+    return implementation->advance(grains, loads, dt, gravity, tolerance_factor);
   }
 
   void ContactStepper::set_communicator(const MPI_Comm communicator)

@@ -40,33 +40,33 @@ namespace alluvium::contacts
 
     const bool may_halve = level < settings.max_halvings;
     Outcome    outcome   = solve(report, may_halve);
-    bool       runaway = false, gain = false;
+    bool       diverged = false, gained_energy = false;
     const bool bounces = step.materials.bounces || step.materials.law;
     // Most impulses are no larger than what the masses alone allow, which needs no sums over all grains.
-    const double extra = margins.wall_speed + margins.push_out;
+    const double extra = margins.wall_speed + margins.depenetration_speed;
     if (const double largest = max_over_ranks(work.communicator(), outcome.largest_impulse);
-        bounces || is_runaway(largest, {0.99 * step.scales.mass, 0., 0.}, extra))
+        bounces || has_diverged(largest, {0.99 * step.scales.mass, 0., 0.}, extra))
       {
         const auto before = sum_motion(bodies.free, work.n_owned(), work.n_all(), work.communicator());
-        runaway           = is_runaway(largest, before, extra);
-        gain              = bounces && has_gained_energy(problem, work.n_all(), before, extra);
+        diverged          = has_diverged(largest, before, extra);
+        gained_energy     = bounces && has_gained_energy(problem, work.n_all(), before, extra);
       }
     const bool solved =
       outcome.solution.converged || (outcome.solution.stalled && !(may_halve && settings.halve_stalled));
-    if ((!solved || outcome.too_far || gain) && !runaway && may_halve)
+    if ((!solved || outcome.too_far || gained_energy) && !diverged && may_halve)
       {
         ++report.n_halvings;
         for (int half = 0; half < 2; ++half)
           advance(0.5 * h, level + 1, report);
         return;
       }
-    if (runaway || gain)
+    if (diverged || gained_energy)
       {
-        if (runaway)
+        if (diverged)
           work.neighbours.drop_impulses();
-        margins.gentle = true;
-        slack          = work.slack();
-        outcome        = solve(report, false);
+        margins.inelastic = true;
+        slack             = work.slack();
+        outcome           = solve(report, false);
       }
     if (outcome.solution.stalled)
       ++report.n_stalled;
@@ -78,7 +78,7 @@ namespace alluvium::contacts
       ContactBonds::update(work.grains(), work.geometry, *cohesion, work.neighbours.pairs);
     work.geometry.walls.move(h);
     work.neighbours.walls_moved(h * margins.wall_speed);
-    if (!outcome.solution.converged || outcome.too_far || runaway || gain)
+    if (!outcome.solution.converged || outcome.too_far || diverged || gained_energy)
       look_for_crushed(report);
     ++report.n_substeps;
     report.residual        = std::max(report.residual, outcome.solution.residual);
@@ -113,12 +113,12 @@ namespace alluvium::contacts
     // Without gravity, overlaps must open also when all else has come to rest.
     const double velocity_unit =
       scales.g > 0. ? std::sqrt(scales.g * scales.d_min) : std::max(velocity_scale, 0.01 * scales.d_min / step.base_h);
-    margins.delta      = std::min(settings.dead_zone * step.base_h * velocity_unit, 1e-3 * scales.d_min);
-    margins.push_out   = settings.push_out * velocity_unit;
-    margins.correction = settings.correction;
-    margins.threshold  = settings.threshold_velocity;
+    margins.delta               = std::min(settings.dead_zone * step.base_h * velocity_unit, 1e-3 * scales.d_min);
+    margins.depenetration_speed = settings.depenetration_speed * velocity_unit;
+    margins.correction          = settings.correction;
+    margins.threshold           = settings.threshold_velocity;
     // The faster the grains, the more likely a solution closes a gap. Fewer rounds then.
-    margins.nearness =
+    margins.alert_distance =
       std::max({2. * margins.delta, 2e-3 * scales.d_min, std::min(h * margins.speeds.mean, 0.1 * scales.d_min)});
   }
 
@@ -128,12 +128,13 @@ namespace alluvium::contacts
     const double h = margins.h;
     const double reach =
       h * (margins.speeds.largest[0] + margins.speeds.largest[1] + margins.wall_speed + 2. * step.scales.g * h);
-    const double nearness =
-      std::max(margins.nearness, step.cohesion ? step.cohesion->reach(0.5 * step.scales.d_max) : 0.);
+    const double alert_distance =
+      std::max(margins.alert_distance, step.cohesion ? step.cohesion->reach(0.5 * step.scales.d_max) : 0.);
     slack = work.known() ? work.slack() : -1.;
-    if (slack >= nearness + reach)
+    if (slack >= alert_distance + reach)
       return;
-    slack = std::max(settings.skin * step.scales.d_max + nearness - margins.nearness, 1.2 * reach + nearness);
+    slack = std::max(settings.skin * step.scales.d_max + alert_distance - margins.alert_distance,
+                     1.2 * reach + alert_distance);
     work.search(slack);
     if (work.is_shared()) // with other grains now
       bodies.set(work.grains(), work.loads(), h, settings.rotation);
@@ -167,16 +168,17 @@ namespace alluvium::contacts
   {
     // A residual makes a bed creep, at a speed in proportion to it and to the sub-step: wider in short ones, narrower
     // in those that are long for a grain's fall.
-    const double     g     = step.scales.g;
-    const double     x     = g > 0. ? 0.2 * std::sqrt(step.scales.d_min / g) / margins.h : 1.;
-    const double     wider = std::clamp(x, 1., 10.) * std::clamp(2. * x, 0.1, 1.) * (on_the_move ? step.haste : 1.);
+    const double g = step.scales.g;
+    const double x = g > 0. ? 0.2 * std::sqrt(step.scales.d_min / g) / margins.h : 1.;
+    const double wider =
+      std::clamp(x, 1., 10.) * std::clamp(2. * x, 0.1, 1.) * (on_the_move ? step.tolerance_factor : 1.);
     ContactTolerance tolerance;
-    tolerance.residual   = wider * settings.residual_tolerance;
-    tolerance.violation  = wider * settings.violation_tolerance;
-    tolerance.smooth     = wider * settings.smooth_tolerance;
-    tolerance.loose      = settings.loose;
-    tolerance.patience   = on_the_move ? settings.patience : 10 * settings.patience;
-    tolerance.max_sweeps = settings.max_sweeps;
+    tolerance.residual          = wider * settings.residual_tolerance;
+    tolerance.violation         = wider * settings.violation_tolerance;
+    tolerance.smooth            = wider * settings.smooth_tolerance;
+    tolerance.stagnation_factor = settings.stagnation_factor;
+    tolerance.stagnation_sweeps = on_the_move ? settings.stagnation_sweeps : 10 * settings.stagnation_sweeps;
+    tolerance.max_sweeps        = settings.max_sweeps;
     return tolerance;
   }
 
@@ -193,7 +195,7 @@ namespace alluvium::contacts
       step.scales.g > 0. && work.n_all() >= least_bed && margins.speeds.mean < resting * problem.velocity_scale;
     // A bed at rest, or a cold one, is not on the move, however many sweeps it takes.
     const bool on_the_move     = margins.speeds.mean > settings.moving_speed * problem.velocity_scale;
-    report.hasty               = report.hasty || (on_the_move && step.haste > 1.);
+    report.was_loosened        = report.was_loosened || (on_the_move && step.tolerance_factor > 1.);
     ContactTolerance tolerance = this->tolerance(on_the_move);
     Outcome          outcome;
     ContactSolution &solution = outcome.solution;
@@ -253,7 +255,7 @@ namespace alluvium::contacts
     const double reach  = margins.h * (speeds[0] + speeds[1] + margins.wall_speed);
     const bool   search = reach > slack;
     // Those that take no part are at least this far apart.
-    if (reach < 0.999 * std::min(slack, margins.nearness))
+    if (reach < 0.999 * std::min(slack, margins.alert_distance))
       return false;
     if (search)
       {

@@ -79,14 +79,14 @@ namespace alluvium::coupling
                                                    const grains::GrainLoads    &loads,
                                                    const double                 dt,
                                                    const std::array<double, 2> &gravity,
-                                                   const double                 haste)
+                                                   const double                 tolerance_factor)
   {
     const auto               timer  = timers.scope("contacts");
     const grains::Components before = displacements(grains), velocity = grains.velocity;
     Attempt                  attempt;
-    attempt.report = contacts.advance(grains, loads, dt, gravity, haste);
+    attempt.report = contacts.advance(grains, loads, dt, gravity, tolerance_factor);
     attempt.motion = mean_motion(before, grains, dt);
-    attempt.unseen = coupling.unseen_force(grains, velocity, attempt.motion, loads);
+    attempt.defect = coupling.momentum_defect(grains, velocity, attempt.motion, loads);
     return attempt;
   }
 
@@ -96,11 +96,11 @@ namespace alluvium::coupling
                                                     const double                 dt,
                                                     const std::array<double, 2> &gravity)
   {
-    constexpr unsigned int       depth = 5; // of the mixing
-    const TimeScheme::Repetition limit = coupling.repetition();
-    const bool                   tries = limit.largest_number > 0;
+    constexpr unsigned int           depth = 5; // of the mixing
+    const TimeScheme::IterationLimit limit = coupling.iteration_limit();
+    const bool                       tries = limit.largest_number > 0;
     // the tolerance of 1e-2 bears contacts a hundred times looser, a tight one none
-    const double             haste = tries ? std::clamp(1e4 * limit.tolerance, 1., 100.) : 1.;
+    const double             tolerance_factor = tries ? std::clamp(1e4 * limit.tolerance, 1., 100.) : 1.;
     contacts::StepStart      start;
     AndersonMixing           mixing(depth);
     std::vector<GrainMotion> motions;
@@ -116,27 +116,27 @@ namespace alluvium::coupling
     };
     for (n = 0;; ++n)
       {
-        Attempt attempt = move(grains, loads, dt, gravity, haste);
+        Attempt attempt = move(grains, loads, dt, gravity, tolerance_factor);
         count(attempt.report);
-        const double defect    = root_mean_square(attempt.unseen);
+        const double defect    = root_mean_square(attempt.defect);
         n_stalled              = defect > 0.7 * best ? n_stalled + 1 : 0;
         best                   = std::min(best, defect);
         const double tolerance = n == 0 ? 0.1 * limit.tolerance : limit.tolerance;
         agree                  = !tries || agrees(grains, attempt, tolerance);
         if (agree || n_stalled == 2 || n == limit.largest_number)
           {
-            if (attempt.report.hasty)
+            if (attempt.report.was_loosened)
               {
                 start.restore(grains, contacts);
                 attempt = move(grains, loads, dt, gravity, 1.);
                 count(attempt.report);
-                agree = agrees(grains, attempt, tolerance); // hasty only if the step may be repeated
+                agree = agrees(grains, attempt, tolerance); // was_loosened only if the step may be repeated
               }
-            coupling.set_unseen_force(attempt.unseen);
+            coupling.set_momentum_defect(attempt.defect);
             return attempt.report;
           }
         motions.push_back(std::move(attempt.motion));
-        mixing.add(std::move(attempt.unseen));
+        mixing.add(std::move(attempt.defect));
         if (motions.size() > mixing.n())
           motions.erase(motions.begin());
         const std::vector<double> weights = mixing.weights();
@@ -149,7 +149,7 @@ namespace alluvium::coupling
 
   bool ContactIteration::agrees(const grains::GrainArrays &grains, const Attempt &attempt, const double tolerance) const
   {
-    return root_mean_square(attempt.unseen) <= tolerance * coupling.typical_force(grains) &&
-           size_of_sum(attempt.unseen) <= 0.1 * tolerance * coupling.report().force_scale;
+    return root_mean_square(attempt.defect) <= tolerance * coupling.typical_force(grains) &&
+           size_of_sum(attempt.defect) <= 0.1 * tolerance * coupling.report().force_scale;
   }
 } // namespace alluvium::coupling

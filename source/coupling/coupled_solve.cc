@@ -97,17 +97,17 @@ namespace alluvium::coupling
     solver->begin_step(boundary_conditions, problem);
     solver->solve();
     SolveCounts counts = latest_counts();
-    for (unsigned int sweep = 1; sweep < scheme.n_sweeps(); ++sweep)
+    for (unsigned int sub_iteration = 1; sub_iteration < scheme.n_sub_iterations(); ++sub_iteration)
       {
-        look_at(solver->solution(), state);
+        sample_fields(solver->solution(), state);
         solver->solve_again([&](auto &) {
           reference_field = solver->solution();
           reference_field.update_ghost_values();
-          scheme.exchange_terms(state, sweep, exchange);
+          scheme.exchange_terms(state, sub_iteration, exchange);
         });
         counts.add(latest_counts());
       }
-    look_at(solver->solution(), state);
+    sample_fields(solver->solution(), state);
     return counts;
   }
 
@@ -123,10 +123,10 @@ namespace alluvium::coupling
       for (std::size_t i = 0; i < weights.size(); ++i)
         reference_field.add(weights[i], solutions[i]);
       reference_field.update_ghost_values();
-      look_at(reference_field, state);
-      scheme.exchange_terms(state, scheme.n_sweeps(), map->terms().exchange);
+      sample_fields(reference_field, state);
+      scheme.exchange_terms(state, scheme.n_sub_iterations(), map->terms().exchange);
     });
-    look_at(solver->solution(), state);
+    sample_fields(solver->solution(), state);
     return latest_counts();
   }
 
@@ -138,7 +138,7 @@ namespace alluvium::coupling
   }
 
 
-  void CoupledSolve::look_at(const fluid::BlockVector &field, CouplingState &state) const
+  void CoupledSolve::sample_fields(const fluid::BlockVector &field, CouplingState &state) const
   {
     state.before_latest.swap(state.latest);
     evaluate(*map, *space, field, state.latest);

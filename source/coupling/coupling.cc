@@ -149,7 +149,7 @@ namespace alluvium::coupling
       {
         last              = before;
         last.steady       = true;
-        last.n_iterations = last.n_loose = last.n_direct = 0; // those of rebalance() are counted
+        last.n_iterations = last.n_loose = last.n_direct = 0; // those of reinitialise_flow() are counted
         loads                                            = last_loads;
         return;
       }
@@ -170,7 +170,7 @@ namespace alluvium::coupling
       last_inputs = inputs();
     last.steady = resumes && !moved && is_steady;
     resumes     = false;
-    count(std::exchange(of_rebalance, {}));
+    count(std::exchange(of_reinitialisation, {}));
     pieces   = std::move(state);
     has_step = true;
   }
@@ -215,11 +215,11 @@ namespace alluvium::coupling
   }
 
 
-  bool Coupling::rebalance(const fluid::BoundaryConditions<dim> &boundary_conditions,
-                           const grains::GrainArrays            &grains,
-                           const double                          dt,
-                           const fluid::BlockVector             &before,
-                           const double                          share)
+  bool Coupling::reinitialise_flow(const fluid::BoundaryConditions<dim> &boundary_conditions,
+                                   const grains::GrainArrays            &grains,
+                                   const double                          dt,
+                                   const fluid::BlockVector             &before,
+                                   const double                          share)
   {
     is_steady = resumes     = false;
     const FlowChange change = flow_change(*space, *solver, before, grains);
@@ -234,7 +234,7 @@ namespace alluvium::coupling
     fresh.touched.assign(grains.n(), 0);
     CouplingState state(grains, map, std::move(fresh));
     solve.prepare(state);
-    of_rebalance.add(find_flow_after_remeshing(
+    of_reinitialisation.add(find_flow_after_remeshing(
       solve, *solver, boundary_conditions, frozen_scheme(), change, before, dt, state, space->communicator()));
     return true;
   }
@@ -249,12 +249,12 @@ namespace alluvium::coupling
   }
 
 
-  std::vector<double> Coupling::unseen_force(const grains::GrainArrays &grains,
-                                             const grains::Components  &before,
-                                             const GrainMotion         &motion,
-                                             const grains::GrainLoads  &loads) const
+  std::vector<double> Coupling::momentum_defect(const grains::GrainArrays &grains,
+                                                const grains::Components  &before,
+                                                const GrainMotion         &motion,
+                                                const grains::GrainLoads  &loads) const
   {
-    Assert(has_step, ExcMessage("unseen_force() comes after step()."));
+    Assert(has_step, ExcMessage("momentum_defect() comes after step()."));
     const auto         &of_fluid = forces.force();
     std::vector<double> result(2 * of_fluid.size());
     for (std::size_t g = 0; g < of_fluid.size(); ++g)
@@ -262,7 +262,7 @@ namespace alluvium::coupling
         if (std::isinf(grains.mass[g]))
           continue;
         const double added       = loads.mass_added_to(g) / pieces.dt;
-        const auto   weight      = pieces.reduced_weight(grains, g);
+        const auto   weight      = pieces.submerged_weight(grains, g);
         const double coefficient = loads.drag[g] + added;
         for (unsigned int d = 0; d < dim; ++d)
           result[2 * g + d] =
@@ -277,17 +277,17 @@ namespace alluvium::coupling
     double            weight = 0.;
     const std::size_t n      = forces.force().size();
     for (std::size_t g = 0; g < n; ++g)
-      if (const auto w = pieces.reduced_weight(grains, g); !std::isinf(grains.mass[g]))
+      if (const auto w = pieces.submerged_weight(grains, g); !std::isinf(grains.mass[g]))
         weight += std::hypot(w[0], w[1]);
     return n == 0 ? 0. : std::max(weight, last.force_scale) / n;
   }
 
 
-  void Coupling::set_unseen_force(const std::vector<double> &of_grains)
+  void Coupling::set_momentum_defect(const std::vector<double> &of_grains)
   {
-    last.unseen_force = {{0., 0.}};
+    last.momentum_defect = {{0., 0.}};
     for (std::size_t i = 0; i < of_grains.size(); ++i)
-      last.unseen_force[i % 2] += of_grains[i];
+      last.momentum_defect[i % 2] += of_grains[i];
   }
 
 

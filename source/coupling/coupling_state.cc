@@ -2,7 +2,7 @@
 
 namespace alluvium::coupling
 {
-  std::array<double, 2> PieceState::reduced_weight(const grains::GrainArrays &grains, const std::size_t g) const
+  std::array<double, 2> PieceState::submerged_weight(const grains::GrainArrays &grains, const std::size_t g) const
   {
     const double volume = grains::disc_volume(grains.fluid_radius[g]), m = grains.mass[g] - fluid_density * volume;
     return {{m * gravity[0] + volume * unsupported[0], m * gravity[1] + volume * unsupported[1]}};

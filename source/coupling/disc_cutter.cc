@@ -50,7 +50,7 @@ namespace alluvium::coupling
     grid          = geometry::RectangleGrid(polygons);
     mirrors       = straight_sides(*space);
     other_mirrors = BoundaryMirrors(*space);
-    too_uneven    = Utilities::MPI::max(static_cast<unsigned int>(grid.too_uneven()), space->communicator()) > 0;
+    non_tensor    = Utilities::MPI::max(static_cast<unsigned int>(grid.is_non_tensor()), space->communicator()) > 0;
   }
 
 

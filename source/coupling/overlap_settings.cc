@@ -19,17 +19,18 @@ namespace alluvium::coupling
     prm.add_parameter(
       "Filter shape",
       shape,
-      "How a grain is spread over the filter's disc: `even`, or `smooth`, as 1 - q^2/R^2 of the "
-      "distance q from its centre, so that nothing jumps where the edge of the disc crosses cells; one of "
-      "`2.5 d` is as wide as an even one of `2 d`. With `Filter radius = grain` always even.",
+      "How a grain is spread over the filter's disc, the kernel: `even` (top hat), or `smooth` (parabolic, "
+      "Epanechnikov), as 1 - q^2/R^2 of the distance q from its centre, so that nothing jumps where the edge of the "
+      "disc crosses cells; one of `2.5 d` is as wide as an even one of `2 d`. With `Filter radius = grain` always "
+      "even.",
       Patterns::Selection("even|smooth"));
     prm.add_parameter(
       "Overlap rule",
       rule,
       "How shape functions are integrated over the pieces of a grain: `centroid` (the paper: at the piece's centroid, "
       "exact for linear functions), `moments` (with second moments: exact for bilinear functions on parallelograms) "
-      "or, for comparison only, `centre` (a grain is spread evenly over the cell that has its centre, and jumps from "
-      "cell to cell; there is no filter).",
+      "or, for comparison only, `centre` (the particle-centre method: a grain is spread evenly over the cell that has "
+      "its centre, and jumps from cell to cell; there is no filter).",
       Patterns::Selection("centroid|moments|centre"));
     prm.add_parameter("Overlap tolerance",
                       tolerance,

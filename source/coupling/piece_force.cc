@@ -7,12 +7,12 @@ namespace alluvium::coupling
     const auto       &x = map.terms().exchange[k];
     const auto       &f = state.latest[k];
     const PieceField  none{};
-    const PieceField &lag = x.reference == 0 ? none : x.reference == 1 ? state.old[k] : state.before_latest[k];
-    const double      b   = x.gamma * x.compliance;
+    const PieceField &lagged = x.reference == 0 ? none : x.reference == 1 ? state.old[k] : state.before_latest[k];
+    const double      b      = x.gamma * x.compliance;
     PieceForce        result;
     for (unsigned int d = 0; d < 2; ++d)
       {
-        result.velocity[d] = x.a[d] + b * (f.u[d] - lag.u[d]) - x.compliance * f.grad_p[d];
+        result.velocity[d] = x.a[d] + b * (f.u[d] - lagged.u[d]) - x.compliance * f.grad_p[d];
         result.force[d]    = x.gamma * (f.u[d] - result.velocity[d]) + x.e[d] - f.grad_p[d];
       }
     return result;

@@ -16,32 +16,34 @@ namespace alluvium::coupling
       void add_parameters(dealii::ParameterHandler &prm) override
       {
         prm.add_parameter(
-          "Repetitions",
+          "Coupling iterations",
           limit.largest_number,
-          "How often fluid and contacts are repeated in a step at most. They are not once that does not help "
-          "any more, which is where contacts are solved loosely: between fast grains.",
+          "How often fluid and contacts are solved again in a step at most, with each other's result. They are not "
+          "once that does not help any more, which is where contacts are solved to a larger tolerance: between fast "
+          "grains.",
           dealii::Patterns::Integer(0, 1000));
+        prm.declare_alias("Coupling iterations", "Repetitions");
         prm.add_parameter(
           "Tolerance",
           limit.tolerance,
           "A step is repeated while the forces that the grains feel and the fluid does not, because "
           "grains do not take the velocities that were predicted, are larger than this: root mean "
-          "square over the grains, over the mean reduced weight or force of the fluid on a grain. Their "
+          "square over the grains, over the mean submerged weight or force of the fluid on a grain. Their "
           "sum shall be less than a tenth of this times the force of the fluid on all grains, and a "
           "step that is not repeated at all has a tenth of both tolerances.",
           dealii::Patterns::Double(0.));
       }
 
-      // the second one is the first repetition, which knows more
-      unsigned int n_sweeps() const override { return 1; }
-      bool         predicts_acceleration() const override { return true; }
-      Repetition   repetition() const override { return limit; }
+      // the second one is the first coupling iteration, which knows more
+      unsigned int   n_sub_iterations() const override { return 1; }
+      bool           predicts_acceleration() const override { return true; }
+      IterationLimit iteration_limit() const override { return limit; }
 
       void exchange_terms(const CouplingState                  &state,
-                          const unsigned int                    sweep,
+                          const unsigned int                    sub_iteration,
                           std::vector<fluid::PieceExchange<2>> &exchange) const override
       {
-        once().exchange_terms(state, sweep, exchange);
+        once().exchange_terms(state, sub_iteration, exchange);
       }
 
       unsigned int n_load_sums() const override { return once().n_load_sums(); }
@@ -63,7 +65,7 @@ namespace alluvium::coupling
     private:
       TimeScheme &once() const { return part("semi-implicit per grain"); }
 
-      Repetition limit{10, 1e-2};
+      IterationLimit limit{10, 1e-2};
     };
   } // namespace
 

@@ -10,47 +10,50 @@ namespace alluvium::coupling
   namespace
   {
     /**
-     * One rigid v* per grain without the fill of a rigid coupling ("half lag"). With s_k = gamma_k u - grad p on the
-     * pieces, S = sum A s_k, G = sum A gamma_k and a known field "lag", w    = [m v^n/dt + m' g + F_c + S(lag)] / (m/dt
-     * + G) v*_k = w + 1/2 c_k (s_k^{n+1} - s_k^{lag}),          c_k = 1 / (rho_p/dt + gamma_k), which is exactly rigid
-     * once lag and new agree. Sweep 1 lags with the old fields on the new pieces, sweep 2 with sweep 1, and so on;
-     * grains that touched others in the last step keep the old lag, to which their contact forces belong. Even numbers
-     * of sweeps are stable for every dt, odd ones are not. With added mass, gamma is CouplingState::coefficient() and s
-     * has CouplingState::added_force(); where spin is coupled, w is a field w + omega* x r, with omega*
-     * = (I omega^n/dt + T(lag)) / (I/dt + J) from GrainTorques, or omega^n for grains that touched others. In a
-     * repeated step w is what the grains made of the lagged fields, contacts included.
+     * One rigid v* per grain without the fill of a rigid coupling: a deferred correction with the factor 1/2. With
+     * s_k = gamma_k u - grad p on the pieces, S = sum A s_k, G = sum A gamma_k and a known, lagged field,
+     *   w    = [m v^n/dt + m' g + F_c + S(lagged)] / (m/dt + G)
+     *   v*_k = w + 1/2 c_k (s_k^{n+1} - s_k(lagged)),          c_k = 1 / (rho_p/dt + gamma_k),
+     * which is exactly rigid once lagged and new field agree. Sub-iteration 1 lags with the old fields on the new
+     * pieces, sub-iteration 2 with sub-iteration 1, and so on; grains that touched others in the last step keep the old
+     * fields, to which their contact forces belong. Even numbers of sub-iterations are stable for every dt, odd ones
+     * are not. With added mass, gamma is CouplingState::coefficient() and s has CouplingState::added_force(); where
+     * spin is coupled, w is a field w + omega* x r, with omega* = (I omega^n/dt + T(lagged)) / (I/dt + J) from
+     * GrainTorques, or omega^n for grains that touched others. In a repeated step w is what the grains made of the
+     * lagged fields, contacts included.
      */
     class SemiImplicitPerGrain : public TimeScheme
     {
     public:
       void add_parameters(dealii::ParameterHandler &prm) override
       {
-        prm.add_parameter("Pairs of sweeps",
+        prm.add_parameter("Pairs of sub-iterations",
                           n_pairs,
-                          "Half the number of fluid solves a step: sweeps come in pairs, odd numbers are unstable.",
+                          "Half the number of fluid solves a step: they come in pairs, odd numbers are unstable.",
                           dealii::Patterns::Integer(1, 10));
+        prm.declare_alias("Pairs of sub-iterations", "Pairs of sweeps");
       }
 
-      unsigned int n_sweeps() const override { return 2 * n_pairs; }
+      unsigned int n_sub_iterations() const override { return 2 * n_pairs; }
 
       bool predicts_acceleration() const override { return true; }
 
       void exchange_terms(const CouplingState                  &state,
-                          const unsigned int                    sweep,
+                          const unsigned int                    sub_iteration,
                           std::vector<fluid::PieceExchange<2>> &exchange) const override
       {
         const auto &grains = state.grains;
-        const auto  lag    = [&](const std::size_t k) -> const PieceField  &{
-          const bool keep = !state.corrected_motion && (sweep == 0 || state.touched[state.map.grain()[k]]);
+        const auto  lagged = [&](const std::size_t k) -> const PieceField  &{
+          const bool keep = !state.corrected_motion && (sub_iteration == 0 || state.touched[state.map.grain()[k]]);
           return keep ? state.old[k] : state.latest[k];
         };
         const GrainMotion known =
-          state.corrected_motion ? *state.corrected_motion : predicted_motion(state, lag, sweep);
+          state.corrected_motion ? *state.corrected_motion : predicted_motion(state, lagged, sub_iteration);
         for (std::size_t k = 0; k < exchange.size(); ++k)
           {
             const unsigned int      g    = state.map.grain()[k];
             const auto              spin = state.spin_velocity(k, known.omega[g]);
-            const PieceField       &f    = lag(k);
+            const PieceField       &f    = lagged(k);
             fluid::PieceExchange<2> x;
             x.gamma      = state.coefficient(k);
             x.compliance = 0.5 / (grains.mass[g] / (state.volume(g) * state.dt) + x.gamma);
@@ -79,7 +82,7 @@ namespace alluvium::coupling
       {
         for (std::size_t g = 0; g < state.grains.n(); ++g)
           {
-            const auto    weight = state.reduced_weight(g);
+            const auto    weight = state.submerged_weight(g);
             const double *sum    = sums.of(g) + first;
             loads.force[0][g]    = weight[0] + sum[0];
             loads.force[1][g]    = weight[1] + sum[1];
@@ -102,21 +105,22 @@ namespace alluvium::coupling
     private:
       /** w and omega* of the class's comment. */
       template <typename Field>
-      static GrainMotion predicted_motion(const CouplingState &state, const Field &lag, const unsigned int sweep)
+      static GrainMotion
+      predicted_motion(const CouplingState &state, const Field &lagged, const unsigned int sub_iteration)
       {
         const auto &grains    = state.grains;
         const bool  with_spin = state.couples_spin();
         GrainMotion motion{grains.velocity, grains.omega};
         GrainSums   sums(grains.n(), with_spin ? 3 + n_torque_sums : 3);
-        add_sums(state, lag, sums, 0);
+        add_sums(state, lagged, sums, 0);
         if (with_spin)
-          add_torque_sums(state, sweep == 0 ? SeenFluid::old : SeenFluid::latest, sums, 3);
+          add_torque_sums(state, sub_iteration == 0 ? SeenFluid::old : SeenFluid::latest, sums, 3);
         sums.complete(state.map.communicator());
         for (std::size_t g = 0; g < grains.n(); ++g)
           {
             const double *sum     = sums.of(g);
             const double  inertia = grains.mass[g] / state.dt, denominator = inertia + sum[2];
-            const auto    weight = state.reduced_weight(g);
+            const auto    weight = state.submerged_weight(g);
             for (unsigned int d = 0; d < 2; ++d)
               motion.velocity[d][g] =
                 (inertia * grains.velocity[d][g] + weight[d] + grains.contact_force[d][g] + sum[d]) / denominator;

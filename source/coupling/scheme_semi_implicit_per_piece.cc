@@ -7,8 +7,8 @@ namespace alluvium::coupling
     /**
      * The paper's scheme (12)-(15) as its own code has it: every piece of a grain predicts a velocity v* of its own,
      *   v*_k = c [rho_p v^n/dt + (m' g + F_c)/V + gamma u - grad p],   c = 1 / (rho_p/dt + gamma),   rho_p = m/V.
-     * The pieces of one grain then move apart and shed drag: where a grain spans several cells, even the steady answer
-     * depends on dt.
+     * The pieces of one grain then move apart and shed drag: where a grain spans several cells, even the steady
+     * solution depends on dt.
      */
     class SemiImplicitPerPiece : public TimeScheme
     {
@@ -25,7 +25,7 @@ namespace alluvium::coupling
             const unsigned int g       = state.map.grain()[k];
             const double       volume  = state.volume(g);
             const double       inertia = grains.mass[g] / (volume * state.dt);
-            const auto         weight  = state.reduced_weight(g);
+            const auto         weight  = state.submerged_weight(g);
             const auto         spin    = state.spin_velocity(k);
             const auto         added   = state.added_force(k);
             auto              &x       = exchange[k];

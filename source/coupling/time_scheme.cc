@@ -10,7 +10,7 @@ namespace alluvium::coupling
   {
     for (std::size_t g = 0; g < state.grains.n(); ++g)
       {
-        const auto weight = state.reduced_weight(g);
+        const auto weight = state.submerged_weight(g);
         loads.force[0][g] = weight[0] + force[g][0];
         loads.force[1][g] = weight[1] + force[g][1];
         loads.drag[g]     = 0.;

@@ -8,7 +8,7 @@ namespace alluvium::deposits
 {
   namespace
   {
-    DepositBox with_seams(DepositBox box, const grains::Periodicity &periodicity)
+    DepositBox with_periodicity(DepositBox box, const grains::Periodicity &periodicity)
     {
       for (unsigned int d = 0; d < 2; ++d)
         {
@@ -29,7 +29,7 @@ namespace alluvium::deposits
   DepositBox parse_deposit_box(const std::string &text, const DepositContext &context)
   {
     if (text.find_first_not_of(" \t") == std::string::npos)
-      return with_seams({context.lower, context.upper}, context.periodicity);
+      return with_periodicity({context.lower, context.upper}, context.periodicity);
     std::string spaced = text;
     for (char &c : spaced)
       if (c == ',')
@@ -42,6 +42,6 @@ namespace alluvium::deposits
     check_user(v[0] < v[2] && v[1] < v[3], "Box = " + text + ": it has no inside. Expected xmin, ymin, xmax, ymax.");
     std::array<double, 2> lower = {{v[0], v[1]}}, upper = {{v[2], v[3]}};
     context.upright.turn(lower, upper);
-    return with_seams({lower, upper}, context.periodicity);
+    return with_periodicity({lower, upper}, context.periodicity);
   }
 } // namespace alluvium::deposits

@@ -50,7 +50,7 @@ namespace alluvium::deposits
   {}
 
 
-  bool DepositCache::read(std::vector<Seed> &seeds, std::string &remark) const
+  bool DepositCache::read(std::vector<NewGrain> &new_grains, std::string &remark) const
   {
     std::error_code error;
     if (!std::filesystem::exists(file, error))
@@ -66,7 +66,7 @@ namespace alluvium::deposits
             const std::string whole = as_comment(contents(n, rows));
             if (table + 1 >= whole.size() && text.compare(table + 1 - whole.size(), whole.size(), whole) == 0)
               {
-                seeds = parse_grain_table(text, file, 0.);
+                new_grains = parse_grain_table(text, file, 0.);
                 return true;
               }
           }
@@ -76,16 +76,16 @@ namespace alluvium::deposits
       {
         remark = std::string("The settled bed that was kept is made anew. ") + complaint.what();
       }
-    seeds.clear();
+    new_grains.clear();
     return false;
   }
 
 
-  void DepositCache::write(const std::vector<Seed> &seeds, const std::string &measured) const
+  void DepositCache::write(const std::vector<NewGrain> &new_grains, const std::string &measured) const
   {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     check_user(!error, "Cannot make the folder '" + folder + "': " + error.message() + ".");
-    write_grain_table(file, seeds, recipe + measured + contents(seeds.size(), grain_table(seeds)));
+    write_grain_table(file, new_grains, recipe + measured + contents(new_grains.size(), grain_table(new_grains)));
   }
 } // namespace alluvium::deposits

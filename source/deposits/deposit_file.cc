@@ -17,7 +17,7 @@ namespace alluvium::deposits
         "density, vx, vy, omega (SI units).");
     }
 
-    std::vector<Seed> make(const DepositContext &context) const override
+    std::vector<NewGrain> make(const DepositContext &context) const override
     {
       check_user(!file.empty(), "The deposit 'file' needs the parameter 'File'.");
       return read_grain_table(path_from(context.directory, file), context.density);

@@ -8,7 +8,7 @@
 
 namespace alluvium::deposits
 {
-  /** Equal discs on a square lattice: the bed of drag tests, whose answer is known. */
+  /** Equal discs on a square lattice: the bed of drag tests, whose drag is known exactly. */
   class Lattice : public Deposit
   {
   public:
@@ -29,7 +29,7 @@ namespace alluvium::deposits
       prm.add_parameter("Box", box_text, deposit_box_prose);
     }
 
-    std::vector<Seed> make(const DepositContext &context) const override
+    std::vector<NewGrain> make(const DepositContext &context) const override
     {
       check_user(diameter > 0., "The deposit 'lattice' needs a positive 'Diameter'.");
       const double a = spacing > 0. ? spacing : diameter * std::sqrt(M_PI / 4. / area_fraction);
@@ -44,20 +44,20 @@ namespace alluvium::deposits
       // As many whole cells as fit, centred in the box.
       const int nx = static_cast<int>(box.width() / a + 1e-9), ny = static_cast<int>(box.height() / a + 1e-9);
       check_user(nx > 0 && ny > 0, "The deposit 'lattice' has no grains: its box is smaller than one lattice cell.");
-      // Over the seams of a periodic domain it goes on evenly.
-      const double      ax = box.periodic[0] ? box.width() / nx : a, ay = box.periodic[1] ? box.height() / ny : a;
-      const DepositRoom room(context, box, 0.5 * diameter, 0.5 * diameter);
-      std::vector<Seed> seeds;
+      // Across periodic boundaries it goes on evenly.
+      const double          ax = box.periodic[0] ? box.width() / nx : a, ay = box.periodic[1] ? box.height() / ny : a;
+      const DepositRoom     room(context, box, 0.5 * diameter, 0.5 * diameter);
+      std::vector<NewGrain> new_grains;
       for (int row = 0; row < ny; ++row)
         for (int column = 0; column < nx; ++column)
           {
             const double x = 0.5 * (box.lower[0] + box.upper[0]) + (column - 0.5 * (nx - 1)) * ax,
                          y = 0.5 * (box.lower[1] + box.upper[1]) + (row - 0.5 * (ny - 1)) * ay;
             if (room.fits(x, y, 0.5 * diameter))
-              seeds.push_back({x, y, 0.5 * diameter, context.density});
+              new_grains.push_back({x, y, 0.5 * diameter, context.density});
           }
-      check_user(!seeds.empty(), "The deposit 'lattice' has no grains: walls leave no room in its box.");
-      return seeds;
+      check_user(!new_grains.empty(), "The deposit 'lattice' has no grains: walls leave no room in its box.");
+      return new_grains;
     }
 
   private:

@@ -20,8 +20,8 @@ namespace alluvium::deposits
                           dealii::Patterns::Double(1e-12));
       }
 
-      std::vector<Seed> make(const DepositContext &) const override { return {}; }
-      double            unit_length() const override { return unit; }
+      std::vector<NewGrain> make(const DepositContext &) const override { return {}; }
+      double                unit_length() const override { return unit; }
 
     private:
       double unit = 1e-3;

@@ -31,7 +31,7 @@ namespace alluvium::deposits
       prm.add_parameter("Box", box_text, deposit_box_prose);
     }
 
-    std::vector<Seed> make(const DepositContext &context) const override
+    std::vector<NewGrain> make(const DepositContext &context) const override
     {
       check_user(d_min > 0., "The deposit 'random suspension' needs a positive 'Smallest diameter'.");
       const DepositBox  box = parse_deposit_box(box_text, context);
@@ -64,7 +64,7 @@ namespace alluvium::deposits
                    height                               = box.periodic[1] ? box.height() / ny : cell;
       const grains::Periodicity             periodicity = box.periodicity();
       std::vector<std::vector<std::size_t>> members(static_cast<std::size_t>(nx) * ny);
-      std::vector<Seed>                     seeds;
+      std::vector<NewGrain>                 new_grains;
       const std::vector<std::size_t>        nobody;
       const auto                            members_at = [&](int p, int q) -> const std::vector<std::size_t>                            &{
         if (box.periodic[0])
@@ -92,22 +92,22 @@ namespace alluvium::deposits
                 for (int p = column - 1; p <= column + 1 && placed; ++p)
                   for (const std::size_t k : members_at(p, q))
                     {
-                      double       dx = seeds[k].x - x, dy = seeds[k].y - y;
-                      const double reach = seeds[k].radius + margin;
+                      double       dx = new_grains[k].x - x, dy = new_grains[k].y - y;
+                      const double reach = new_grains[k].radius + margin;
                       periodicity.shorten(dx, dy);
                       placed = placed && dx * dx + dy * dy >= reach * reach;
                     }
               if (placed)
                 {
-                  members[static_cast<std::size_t>(row) * nx + column].push_back(seeds.size());
-                  seeds.push_back({x, y, r, context.density});
+                  members[static_cast<std::size_t>(row) * nx + column].push_back(new_grains.size());
+                  new_grains.push_back({x, y, r, context.density});
                 }
             }
           check_user(placed,
-                     "The deposit 'random suspension' found no room for disc " + std::to_string(seeds.size() + 1) +
+                     "The deposit 'random suspension' found no room for disc " + std::to_string(new_grains.size() + 1) +
                        " of " + std::to_string(radii.size()) + ": lower its area fraction or its smallest gap.");
         }
-      return seeds;
+      return new_grains;
     }
 
   private:

@@ -163,16 +163,16 @@ namespace alluvium::deposits
   }
 
 
-  std::vector<bool> DepositRoom::reachable(const std::vector<Seed> &seeds) const
+  std::vector<bool> DepositRoom::reachable(const std::vector<NewGrain> &new_grains) const
   {
-    std::vector<bool> result(seeds.size(), true);
-    if (empty() || seeds.empty())
+    std::vector<bool> result(new_grains.size(), true);
+    if (empty() || new_grains.empty())
       return result;
     // Points so close that no way between two neighbours leads through a wall, and where a small disc is but for a
     // little.
     const double spacing = 0.5 * smallest, clearance = 0.7 * smallest;
     double       surface = box.lower[1];
-    for (const Seed &s : seeds)
+    for (const NewGrain &s : new_grains)
       surface = std::max(surface, s.y + 2. * s.radius);
     surface          = std::min(surface, box.upper[1]);
     const int n_x    = static_cast<int>(box.width() / spacing) + 1,
@@ -235,10 +235,10 @@ namespace alluvium::deposits
         visit(c, r - 1);
       }
 
-    for (std::size_t k = 0; k < seeds.size(); ++k)
+    for (std::size_t k = 0; k < new_grains.size(); ++k)
       {
-        const Seed &s = seeds[k];
-        result[k]     = false;
+        const NewGrain &s = new_grains[k];
+        result[k]         = false;
         if (!fits(s.x, s.y, s.radius))
           continue;
         const int c = static_cast<int>((s.x - box.lower[0]) / spacing),

@@ -44,7 +44,7 @@ namespace alluvium::deposits
       prm.add_parameter("Keep velocities", keep_velocities, "Whether grains start with the velocities they had then.");
     }
 
-    std::vector<Seed> make(const DepositContext &context) const override
+    std::vector<NewGrain> make(const DepositContext &context) const override
     {
       namespace fs = std::filesystem;
       check_user(!output_folder.empty(), "The deposit 'end of a run' needs the parameter 'Output folder'.");
@@ -60,21 +60,21 @@ namespace alluvium::deposits
       contacts::ContactArchive contacts;
       load_grains(MPI_COMM_SELF, folder + "/grains", grains, contacts);
       note_input(folder);
-      const bool        fluid_radius = mass_followed_fluid_radius(folder);
-      std::vector<Seed> seeds;
+      const bool            fluid_radius = mass_followed_fluid_radius(folder);
+      std::vector<NewGrain> new_grains;
       for (std::size_t i = 0; i < grains.n(); ++i)
         {
           const double r = fluid_radius ? grains.fluid_radius[i] : grains.radius[i];
-          seeds.push_back(
+          new_grains.push_back(
             {grains.position[0][i], grains.position[1][i], grains.radius[i], grains.mass[i] / grains::disc_volume(r)});
           if (keep_velocities)
             {
-              seeds.back().vx    = grains.velocity[0][i];
-              seeds.back().vy    = grains.velocity[1][i];
-              seeds.back().omega = grains.omega[i];
+              new_grains.back().vx    = grains.velocity[0][i];
+              new_grains.back().vy    = grains.velocity[1][i];
+              new_grains.back().omega = grains.omega[i];
             }
         }
-      return seeds;
+      return new_grains;
     }
 
   private:

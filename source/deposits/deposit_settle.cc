@@ -14,12 +14,12 @@ namespace alluvium::deposits
   namespace
   {
     /** Neighbours in space become neighbours in memory: rows of about one diameter, from left to right. */
-    void sort_into_rows(const DepositBox &box, std::vector<Seed> &seeds)
+    void sort_into_rows(const DepositBox &box, std::vector<NewGrain> &new_grains)
     {
       double row = 0.;
-      for (const Seed &s : seeds)
+      for (const NewGrain &s : new_grains)
         row = std::max(row, 2. * s.radius);
-      std::sort(seeds.begin(), seeds.end(), [&](const Seed &a, const Seed &b) {
+      std::sort(new_grains.begin(), new_grains.end(), [&](const NewGrain &a, const NewGrain &b) {
         const double ra = std::floor((a.y - box.lower[1]) / row), rb = std::floor((b.y - box.lower[1]) / row);
         return ra != rb ? ra < rb : a.x != b.x ? a.x < b.x : a.y < b.y;
       });
@@ -50,19 +50,19 @@ namespace alluvium::deposits
     class ThickBed
     {
     public:
-      ThickBed(const Settling &settling, const std::vector<Seed> &seeds)
+      ThickBed(const Settling &settling, const std::vector<NewGrain> &new_grains)
         : settling(settling)
-        , n(seeds.size())
+        , n(new_grains.size())
         , periodicity({settling.box.lower, {{settling.box.periodicity().length[0], 0.}}})
       {
         grains.resize(n);
         loads.reset(n);
         for (std::size_t k = 0; k < n; ++k)
-          smallest = std::min(smallest, 2. * seeds[k].radius);
+          smallest = std::min(smallest, 2. * new_grains[k].radius);
         dt = 0.2 * std::sqrt(smallest / settling.g);
         for (std::size_t k = 0; k < n; ++k)
           {
-            const Seed &s         = seeds[k];
+            const NewGrain &s     = new_grains[k];
             grains.id[k]          = static_cast<grains::GrainId>(k);
             grains.position[0][k] = s.x;
             grains.position[1][k] = s.y;
@@ -88,7 +88,7 @@ namespace alluvium::deposits
         settings.residual_tolerance                = tolerance;
         settings.violation_tolerance               = largest_violation;
         settings.smooth_tolerance                  = 1e-4;
-        settings.patience                          = 100;
+        settings.stagnation_sweeps                 = 100;
         // Beds stay as they are only under steps whose dead zone is no smaller.
         settings.dead_zone *= 0.1;
         solve_step();
@@ -151,12 +151,12 @@ namespace alluvium::deposits
   } // namespace
 
 
-  SettledState bring_to_rest(const Settling &settling, std::vector<Seed> &seeds)
+  SettledState bring_to_rest(const Settling &settling, std::vector<NewGrain> &new_grains)
   {
-    sort_into_rows(settling.box, seeds);
-    ThickBed bed(settling, seeds);
+    sort_into_rows(settling.box, new_grains);
+    ThickBed bed(settling, new_grains);
     double   height = 0.;
-    for (const Seed &s : seeds)
+    for (const NewGrain &s : new_grains)
       height = std::max(height, s.y - settling.box.lower[1]);
     // of the weight of a grain, and the deeper the bed, the more its contacts carry
     const double       carried = std::max(1., 0.25 * height / bed.smallest);
@@ -183,10 +183,10 @@ namespace alluvium::deposits
                "The deposit 'settled bed' did not come to rest in " + std::to_string(bed.state.n_steps) +
                  " steps: its grains still move at " + in_digits(bed.state.speed) + " m/s, and floor and sides carry " +
                  in_digits(bed.state.support) + " of the weight. Try another seed, or other friction while settling.");
-    for (std::size_t k = 0; k < seeds.size(); ++k)
+    for (std::size_t k = 0; k < new_grains.size(); ++k)
       {
-        seeds[k].x = bed.grains.position[0][k];
-        seeds[k].y = bed.grains.position[1][k];
+        new_grains[k].x = bed.grains.position[0][k];
+        new_grains[k].y = bed.grains.position[1][k];
       }
     bed.state.packing = inner_packing_fraction(bed.grains);
     return bed.state;

@@ -75,7 +75,7 @@ namespace alluvium::deposits
 
     bool falls() const override { return true; }
 
-    std::vector<Seed> make(const DepositContext &context) const override
+    std::vector<NewGrain> make(const DepositContext &context) const override
     {
       check_user(d_min > 0., "The deposit 'settled bed' needs a positive 'Smallest diameter'.");
       check_user(n_wanted > 0 || height > 0.,
@@ -92,26 +92,26 @@ namespace alluvium::deposits
       if (cache.empty())
         return checked(settle(context, box, room, g).first, box);
 
-      const DepositCache kept(path_from(context.directory, cache), write_recipe(context, box, room, g));
-      std::vector<Seed>  seeds;
-      std::string        remark;
-      if (kept.read(seeds, remark))
-        return checked(seeds, box);
+      const DepositCache    kept(path_from(context.directory, cache), write_recipe(context, box, room, g));
+      std::vector<NewGrain> new_grains;
+      std::string           remark;
+      if (kept.read(new_grains, remark))
+        return checked(new_grains, box);
       if (!remark.empty() && context.warnings)
         context.warnings->push_back(remark);
       SettledState state;
-      std::tie(seeds, state) = settle(context, box, room, g);
+      std::tie(new_grains, state) = settle(context, box, room, g);
       if (context.may_write)
         try
           {
-            kept.write(seeds, describe(state));
+            kept.write(new_grains, describe(state));
           }
         catch (const UserError &error)
           {
             if (context.warnings)
               context.warnings->push_back(std::string("The settled bed is not kept for other runs. ") + error.what());
           }
-      return checked(seeds, box);
+      return checked(new_grains, box);
     }
 
   private:
@@ -174,105 +174,109 @@ namespace alluvium::deposits
       return text.str();
     }
 
-    static std::vector<Seed> checked(std::vector<Seed> seeds, const DepositBox &box)
+    static std::vector<NewGrain> checked(std::vector<NewGrain> new_grains, const DepositBox &box)
     {
       double top = box.lower[1];
-      for (const Seed &s : seeds)
+      for (const NewGrain &s : new_grains)
         top = std::max(top, s.y + s.radius);
       check_user(top <= box.upper[1],
                  "The deposit 'settled bed' is " + in_digits(top - box.lower[1]) + " m high, its box only " +
                    in_digits(box.upper[1] - box.lower[1]) + " m.");
-      return seeds;
+      return new_grains;
     }
 
-    std::vector<Seed>
+    std::vector<NewGrain>
     pour(const DepositContext &context, const DepositBox &box, const double looseness, const unsigned int n) const
     {
       return pour(context, box, looseness, n, height);
     }
 
     /** Pour discs until there are @p n of them or, if n is 0, enough for a bed of @p height [m]. */
-    std::vector<Seed> pour(const DepositContext &context,
-                           const DepositBox     &box,
-                           const double          looseness,
-                           const unsigned int    n,
-                           const double          height) const
+    std::vector<NewGrain> pour(const DepositContext &context,
+                               const DepositBox     &box,
+                               const double          looseness,
+                               const unsigned int    n,
+                               const double          height) const
     {
-      RandomNumbers     random(seed);
-      Pour              pour(box, 0.5 * d_min * ratio, looseness);
-      std::vector<Seed> seeds;
-      double            area = 0.;
+      RandomNumbers         random(seed);
+      Pour                  pour(box, 0.5 * d_min * ratio, looseness);
+      std::vector<NewGrain> new_grains;
+      double                area = 0.;
       // By height: as many as a bed of packing 0.84 would have, and two layers more.
       const double enough = 0.84 * box.width() * (height + 2. * d_min * ratio);
-      while (n > 0 ? seeds.size() < n : area < enough)
+      while (n > 0 ? new_grains.size() < n : area < enough)
         {
           const double r = 0.5 * d_min * random.uniform(1., ratio);
           const auto   p = pour.add(r, random);
-          seeds.push_back({p[0], p[1], r, context.density});
+          new_grains.push_back({p[0], p[1], r, context.density});
           area += grains::disc_volume(r);
           // Rolled discs lie nearly as dense as they will: a tenth of the height is more than settling gains.
           check_user(looseness > 0. || n == 0 || p[1] < box.lower[1] + 1.15 * box.height() + 4. * d_min * ratio,
-                     "The deposit 'settled bed' cannot fit: " + std::to_string(seeds.size()) + " of its " +
+                     "The deposit 'settled bed' cannot fit: " + std::to_string(new_grains.size()) + " of its " +
                        std::to_string(n) + " grains fill its box of " + in_digits(box.width()) + " m x " +
                        in_digits(box.height()) + " m.");
         }
-      return seeds;
+      return new_grains;
     }
 
     /**
      * The same among walls: discs that lie in them, or where none gets to from above, are left out. Where they were,
      * others will sink in: two layers more.
      */
-    std::vector<Seed>
+    std::vector<NewGrain>
     pour(const DepositContext &context, const DepositBox &box, const DepositRoom &room, const double looseness) const
     {
       if (room.empty())
         return pour(context, box, looseness, n_wanted);
-      const double      layers = 4. * d_min * ratio;
-      std::vector<Seed> seeds;
+      const double          layers = 4. * d_min * ratio;
+      std::vector<NewGrain> new_grains;
       for (unsigned int n = n_wanted;;)
         {
           // the same random numbers: what there was before is poured again, and more
-          const std::vector<Seed> poured =
+          const std::vector<NewGrain> poured =
             n_wanted > 0 ? pour(context, box, looseness, n) : pour(context, box, looseness, 0, height + layers);
           const std::vector<bool> reachable = room.reachable(poured);
-          seeds.clear();
+          new_grains.clear();
           for (std::size_t k = 0; k < poured.size(); ++k)
             if (reachable[k])
-              seeds.push_back(poured[k]);
+              new_grains.push_back(poured[k]);
           if (n_wanted == 0)
             break;
-          if (seeds.size() >= n_wanted)
+          if (new_grains.size() >= n_wanted)
             {
-              std::stable_sort(seeds.begin(), seeds.end(), [](const Seed &a, const Seed &b) { return a.y < b.y; });
-              seeds.resize(n_wanted);
+              std::stable_sort(
+                new_grains.begin(), new_grains.end(), [](const NewGrain &a, const NewGrain &b) { return a.y < b.y; });
+              new_grains.resize(n_wanted);
               break;
             }
-          n += std::max<unsigned int>(1.1 * (n_wanted - seeds.size()), n / 20 + 1);
+          n += std::max<unsigned int>(1.1 * (n_wanted - new_grains.size()), n / 20 + 1);
           check_user(n < 100. * n_wanted + 1e4,
                      "The deposit 'settled bed' finds no way into its box from above: walls close it.");
         }
-      check_user(!seeds.empty(), "The deposit 'settled bed' has no grains: walls leave no room in its box.");
-      return seeds;
+      check_user(!new_grains.empty(), "The deposit 'settled bed' has no grains: walls leave no room in its box.");
+      return new_grains;
     }
 
-    std::pair<std::vector<Seed>, SettledState>
+    std::pair<std::vector<NewGrain>, SettledState>
     settle(const DepositContext &context, const DepositBox &box, const DepositRoom &room, const double g) const
     {
       const double   looseness = packing > 0. ? loose : 0.;
       const Settling settling{
         box, g, packing > 0. ? find_friction(context, box, room, g) : friction, packing > 0., room.walls()};
-      std::vector<Seed> seeds = pour(context, box, room, looseness);
-      SettledState      state = bring_to_rest(settling, seeds);
+      std::vector<NewGrain> new_grains = pour(context, box, room, looseness);
+      SettledState          state      = bring_to_rest(settling, new_grains);
       if (n_wanted == 0)
         {
           const double top = box.lower[1] + height;
-          seeds.erase(std::remove_if(seeds.begin(), seeds.end(), [top](const Seed &s) { return s.y + s.radius > top; }),
-                      seeds.end());
-          check_user(!seeds.empty(), "The deposit 'settled bed' has no grains: its 'Bed height' is less than one.");
-          state = bring_to_rest({box, g, settling.friction, false, room.walls()}, seeds);
+          new_grains.erase(std::remove_if(new_grains.begin(),
+                                          new_grains.end(),
+                                          [top](const NewGrain &s) { return s.y + s.radius > top; }),
+                           new_grains.end());
+          check_user(!new_grains.empty(),
+                     "The deposit 'settled bed' has no grains: its 'Bed height' is less than one.");
+          state = bring_to_rest({box, g, settling.friction, false, room.walls()}, new_grains);
         }
-      return {seeds, state};
+      return {new_grains, state};
     }
 
     /**
@@ -289,8 +293,8 @@ namespace alluvium::deposits
           box.lower, {{box.lower[0] + width, box.lower[1] + 1e3 * width}}, {{box.periodic[0], false}}};
       double     best = 0., best_off = std::numeric_limits<double>::max();
       const auto packing_at = [&](const double mu) {
-        std::vector<Seed> seeds = pour(context, sample, loose, n);
-        const double      now   = bring_to_rest({sample, g, mu, true, {}}, seeds).packing;
+        std::vector<NewGrain> new_grains = pour(context, sample, loose, n);
+        const double          now        = bring_to_rest({sample, g, mu, true, {}}, new_grains).packing;
         if (std::abs(now - packing) < best_off)
           {
             best     = mu;

@@ -21,17 +21,17 @@ namespace alluvium::deposits
     struct Column
     {
       const char *name;
-      double Seed::*member;
-      bool          required;
+      double NewGrain::*member;
+      bool              required;
     };
 
-    constexpr std::array<Column, 7> columns = {{{"x", &Seed::x, true},
-                                                {"y", &Seed::y, true},
-                                                {"radius", &Seed::radius, true},
-                                                {"density", &Seed::density, false},
-                                                {"vx", &Seed::vx, false},
-                                                {"vy", &Seed::vy, false},
-                                                {"omega", &Seed::omega, false}}};
+    constexpr std::array<Column, 7> columns = {{{"x", &NewGrain::x, true},
+                                                {"y", &NewGrain::y, true},
+                                                {"radius", &NewGrain::radius, true},
+                                                {"density", &NewGrain::density, false},
+                                                {"vx", &NewGrain::vx, false},
+                                                {"vy", &NewGrain::vy, false},
+                                                {"omega", &NewGrain::omega, false}}};
 
     std::string_view trim(const std::string_view s)
     {
@@ -60,7 +60,7 @@ namespace alluvium::deposits
         , density(density)
       {}
 
-      std::vector<Seed> read(const std::string &text)
+      std::vector<NewGrain> read(const std::string &text)
       {
         std::vector<std::string_view> fields;
         for (std::size_t begin = 0; begin < text.size(); ++number)
@@ -76,8 +76,8 @@ namespace alluvium::deposits
             else
               read_grain(fields);
           }
-        check_user(!seeds.empty(), "The grain file '" + file + "' has no grains.");
-        return std::move(seeds);
+        check_user(!new_grains.empty(), "The grain file '" + file + "' has no grains.");
+        return std::move(new_grains);
       }
 
     private:
@@ -115,7 +115,7 @@ namespace alluvium::deposits
         if (fields.size() != order.size())
           fail("found " + std::to_string(fields.size()) + " fields, but the header names " +
                std::to_string(order.size()) + " columns.");
-        Seed seed{};
+        NewGrain seed{};
         seed.density = density;
         for (std::size_t k = 0; k < fields.size(); ++k)
           {
@@ -133,32 +133,32 @@ namespace alluvium::deposits
           fail("the radius must be positive.");
         if (!(seed.density > 0.))
           fail("the density must be positive.");
-        seeds.push_back(seed);
+        new_grains.push_back(seed);
       }
 
       const std::string          &file;
       const double                density;
       std::size_t                 number = 1; // of the line
       std::vector<const Column *> order;
-      std::vector<Seed>           seeds;
+      std::vector<NewGrain>       new_grains;
     };
   } // namespace
 
-  std::vector<Seed> read_grain_table(const std::string &file, const double density)
+  std::vector<NewGrain> read_grain_table(const std::string &file, const double density)
   {
     return parse_grain_table(read_text_file(file, "grain file"), file, density);
   }
 
-  std::vector<Seed> parse_grain_table(const std::string &text, const std::string &file, const double density)
+  std::vector<NewGrain> parse_grain_table(const std::string &text, const std::string &file, const double density)
   {
     return TableReader(file, density).read(text);
   }
 
-  std::string grain_table(const std::vector<Seed> &seeds)
+  std::string grain_table(const std::vector<NewGrain> &new_grains)
   {
     std::string           text = "x,y,radius,density,vx,vy,omega\n";
     std::array<char, 256> row;
-    for (const Seed &s : seeds)
+    for (const NewGrain &s : new_grains)
       {
         std::snprintf(row.data(),
                       row.size(),
@@ -175,7 +175,7 @@ namespace alluvium::deposits
     return text;
   }
 
-  void write_grain_table(const std::string &file, const std::vector<Seed> &seeds, const std::string &comment)
+  void write_grain_table(const std::string &file, const std::vector<NewGrain> &new_grains, const std::string &comment)
   {
     std::string        text;
     std::istringstream lines(comment);
@@ -183,7 +183,7 @@ namespace alluvium::deposits
       text += "# " + line + '\n';
     // two runs may make the same one at the same time
     const std::string mine = file + "." + std::to_string(getpid());
-    write_atomically(mine, text + grain_table(seeds));
+    write_atomically(mine, text + grain_table(new_grains));
     std::error_code error;
     std::filesystem::rename(mine, file, error);
     if (!error)

@@ -48,7 +48,7 @@ namespace alluvium::fluid
 
 
   template <int dim, int n>
-  void known_mesh(const CellState<dim, n> &state, LocalVector<dim, n> &b)
+  void add_mesh_right_hand_side(const CellState<dim, n> &state, LocalVector<dim, n> &b)
   {
     const double rho = state.problem.fluid.density, pspg = state.pspg, supg = state.supg;
     for (unsigned int q = 0; q < state.space.n_q_points(); ++q)
@@ -118,9 +118,9 @@ namespace alluvium::fluid
 
 
   template void add_mesh(const CellState<2, 3> &, LocalMatrix<2, 3> &);
-  template void known_mesh(const CellState<2, 3> &, LocalVector<2, 3> &);
+  template void add_mesh_right_hand_side(const CellState<2, 3> &, LocalVector<2, 3> &);
   template void term_squares(const CellState<2, 3> &, const BlockVector &, double &, double &);
   template void add_mesh(const CellState<2, 4> &, LocalMatrix<2, 4> &);
-  template void known_mesh(const CellState<2, 4> &, LocalVector<2, 4> &);
+  template void add_mesh_right_hand_side(const CellState<2, 4> &, LocalVector<2, 4> &);
   template void term_squares(const CellState<2, 4> &, const BlockVector &, double &, double &);
 } // namespace alluvium::fluid

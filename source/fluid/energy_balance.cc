@@ -116,11 +116,12 @@ namespace alluvium::fluid
           const Vector             *reference = problem.reference[ex.reference];
           for (unsigned int d = 0; d < dim; ++d)
             {
-              double lag = 0.;
+              double lagged = 0.;
               if (reference)
                 for (unsigned int v = 0; v < n; ++v)
-                  lag += s.phi[v] * reference->local_element(state.cell->velocity[v][d]);
-              const double solid  = ex.a[d] + ex.gamma * ex.compliance * (at.u[d] - lag) - ex.compliance * at.grad_p[d];
+                  lagged += s.phi[v] * reference->local_element(state.cell->velocity[v][d]);
+              const double solid =
+                ex.a[d] + ex.gamma * ex.compliance * (at.u[d] - lagged) - ex.compliance * at.grad_p[d];
               const double force  = ex.gamma * (at.u[d] - solid) + ex.e[d]; // without the pressure's
               const double grains = s.area * (force - at.grad_p[d]) * solid, drag = s.area * force * (at.u[d] - solid);
               sum.to_grains += grains;
@@ -133,7 +134,7 @@ namespace alluvium::fluid
       LocalVector<dim, n> b{};
       add_mesh(state, L);
       add_pieces(state, L);
-      known_mesh(state, b);
+      add_mesh_right_hand_side(state, b);
       known_pieces(state, b);
       const double all = product<dim, n>(x, L, b);
       sum.boundaries += all;

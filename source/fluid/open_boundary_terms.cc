@@ -27,7 +27,7 @@ namespace alluvium::fluid
         LocalMatrix<dim, n> L{};
         LocalVector<dim, n> b{};
         add_mesh(state, L);
-        known_mesh(state, b);
+        add_mesh_right_hand_side(state, b);
         const double measure = state.cell->measure;
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int c = 0; c < dim; ++c)

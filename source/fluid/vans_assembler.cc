@@ -104,7 +104,7 @@ namespace alluvium::fluid
           state.reinit(i);
           fill_matrix(state, L);
           b.fill(0.);
-          known_mesh(state, b);
+          add_mesh_right_hand_side(state, b);
           typename K::Values b_pieces{};
           known_pieces(state, b_pieces);
           const typename K::Values x = state.values(iterate);
@@ -222,7 +222,7 @@ namespace alluvium::fluid
           state.reinit(i);
           fill_matrix(state, L);
           b.fill(0.);
-          known_mesh(state, b);
+          add_mesh_right_hand_side(state, b);
           known_pieces(state, b);
           const typename K::Values x = state.values(solution);
           for (unsigned int v = 0; v < n / (dim + 1); ++v)

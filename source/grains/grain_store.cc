@@ -117,14 +117,14 @@ namespace alluvium::grains
           upper[d] = box_upper[d] + width;
         }
       // few grains in a wide box get few, large cells: the grid's size goes with the grains, not with the box; and many
-      // share them, since p4est's cells are dear
+      // share them, since p4est's cells are expensive
       const double most_cells = 4096. + 0.125 * grains.n();
       const auto count = [&](const unsigned int d) { return std::max(1., std::floor((upper[d] - lower[d]) / width)); };
       while (count(0) * count(1) > most_cells)
         width *= 1.2;
       for (unsigned int d = 0; d < 2; ++d)
         n[d] = count(d);
-      // trees of the forest are dear, its refinement is cheap; a few cells more or less in a row do not matter
+      // trees of the forest are expensive, its refinement is cheap; a few cells more or less in a row do not matter
       n_levels = 0;
       while (std::min(n[0], n[1]) / (2 << n_levels) >= 8.)
         ++n_levels;

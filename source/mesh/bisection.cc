@@ -30,7 +30,7 @@ namespace alluvium::mesh
         , cells(cells)
       {}
 
-      /** Deal out the cells [begin, end) to parts first_part ... first_part + n_parts - 1. */
+      /** Assign the cells [begin, end) to parts first_part ... first_part + n_parts - 1. */
       void deal(const Indices begin, const Indices end, const unsigned int first_part, const unsigned int n_parts)
       {
         if (n_parts == 1)

@@ -22,7 +22,7 @@ namespace alluvium::mesh
       int rank = 0, n_ranks = 1;
       MPI_Comm_rank(ranks, &rank);
       MPI_Comm_size(ranks, &n_ranks);
-      if (rank > 0) // the first one speaks, if it has failed, too
+      if (rank > 0) // the first one prints, if it has failed, too
         std::this_thread::sleep_for(std::chrono::seconds(2));
       std::cerr << "alluvium: error: " << complaint_now << std::endl;
       if (n_ranks > 1)

@@ -39,8 +39,8 @@ namespace alluvium::observers
           return;
         const auto &report = s.fluid->coupling.report();
         for (unsigned int d = 0; d < 2; ++d)
-          not_received[d] += s.dt * report.unseen_force[d];
-        not_received_gross += s.dt * std::hypot(report.unseen_force[0], report.unseen_force[1]);
+          momentum_defect[d] += s.dt * report.momentum_defect[d];
+        defect_gross += s.dt * std::hypot(report.momentum_defect[0], report.momentum_defect[1]);
         received += s.dt * report.force_scale;
         const double density = s.fluid->solver.properties.density;
         for (std::size_t i = 0; i < s.grains.n(); ++i)
@@ -75,7 +75,7 @@ namespace alluvium::observers
             statistics.set("prediction_defect_max_m_per_s", largest);
             statistics.set("momentum_not_received_over_force",
                            report.force_scale > 0.
-                             ? std::hypot(report.unseen_force[0], report.unseen_force[1]) / report.force_scale
+                             ? std::hypot(report.momentum_defect[0], report.momentum_defect[1]) / report.force_scale
                              : 0.);
             statistics.set("fluid_residual", s.fluid->solver.last_report().residual);
           }
@@ -100,9 +100,9 @@ namespace alluvium::observers
           {
             // of the exchange, and of the weight: in still water the exchange is next to nothing
             constexpr double allowed = 1e-3, allowed_of_weight = 1e-5;
-            const double     missing = std::hypot(not_received[0], not_received[1]), share = missing / received;
+            const double     missing = std::hypot(momentum_defect[0], momentum_defect[1]), share = missing / received;
             summary.set("audit/momentum_not_received_over_impulse", share);
-            summary.set("audit/momentum_not_received_without_regard_to_sign", not_received_gross / received);
+            summary.set("audit/momentum_not_received_without_regard_to_sign", defect_gross / received);
             if (share > allowed && missing > allowed_of_weight * weight)
               summary.warn(
                 "More than 0.1 % of the momentum that fluid and grains exchanged did not reach the fluid (see "
@@ -115,7 +115,7 @@ namespace alluvium::observers
       void save(nlohmann::ordered_json &state) const override
       {
         state = {
-          third_law, penetration, not_received[0], not_received[1], not_received_gross, received, weight, nullptr};
+          third_law, penetration, momentum_defect[0], momentum_defect[1], defect_gross, received, weight, nullptr};
         if (!std::isnan(smooth_velocity))
           state.back() = smooth_velocity;
       }
@@ -125,10 +125,10 @@ namespace alluvium::observers
         third_law   = state.at(0).get<double>();
         penetration = state.at(1).get<double>();
         for (unsigned int d = 0; d < 2; ++d)
-          not_received[d] = state.at(2 + d).get<double>();
-        not_received_gross = state.at(4).get<double>();
-        received           = state.at(5).get<double>();
-        weight             = state.size() > 6 ? state.at(6).get<double>() : 0.;
+          momentum_defect[d] = state.at(2 + d).get<double>();
+        defect_gross = state.at(4).get<double>();
+        received     = state.at(5).get<double>();
+        weight       = state.size() > 6 ? state.at(6).get<double>() : 0.;
         if (state.size() > 7 && !state.at(7).is_null())
           smooth_velocity = state.at(7).get<double>();
       }
@@ -136,8 +136,8 @@ namespace alluvium::observers
     private:
       double third_law = 0., penetration = 0., smooth_velocity = std::numeric_limits<double>::quiet_NaN();
       // momentum that grains got and the fluid did not, and sum of |force| dt over the grains [N s/m]
-      std::array<double, 2> not_received       = {{0., 0.}};
-      double                not_received_gross = 0., received = 0.;
+      std::array<double, 2> momentum_defect = {{0., 0.}};
+      double                defect_gross = 0., received = 0.;
       double                weight = 0.; // of what can move, without buoyancy, times time [N s/m]
     };
   } // namespace

@@ -18,7 +18,7 @@ namespace alluvium::observers
   {
     /**
      * Who carries the grains: floor, walls, fluid. Where the flow crosses a bed that reaches from side to side, it is
-     * fluidised by force balance at the head at which the fluid carries the whole reduced weight, (s phi_m - phi_b) L
+     * fluidised by force balance at the head at which the fluid carries the whole submerged weight, (s phi_m - phi_b) L
      * whatever the mesh and the drag law (L the height of the bed, phi_m the packing that has mass, phi_b the packing
      * that the fluid sees). Elsewhere there is no such onset. It counts if the fluid carries at least 0.98 of the
      * weight in the mean over sqrt(d/g) from then on, and the floor less than a tenth.
@@ -180,6 +180,6 @@ namespace alluvium::observers
   ALLUVIUM_REGISTER_OBSERVER(
     Support,
     "support",
-    "Forces on the floor, on all walls and of the fluid over the grains' reduced weight; the onset of "
+    "Forces on the floor, on all walls and of the fluid over the grains' submerged weight; the onset of "
     "fluidisation by force balance beside its exact value.")
 } // namespace alluvium::observers

@@ -44,7 +44,7 @@ namespace alluvium::refinement
               const dealii::Point<2> point(box.lower[0] + a * (box.upper[0] - box.lower[0]),
                                            box.lower[1] + b * (box.upper[1] - box.lower[1]));
               const double           size = function->value(point);
-              if (!(size > 0.)) // the message is dear, and this is asked for every cell
+              if (!(size > 0.)) // the message is expensive, and this is asked for every cell
                 throw UserError("Mesh refinement/Criteria: function/Cell size: '" + text + "' is " + in_digits(size) +
                                 " at x = " + in_digits(point[0]) + ", y = " + in_digits(point[1]) +
                                 "; sizes must be positive.");

@@ -56,7 +56,7 @@ namespace alluvium::refinement
 
   void SizeRaster::stamp(const mesh::Box &box, const double wanted)
   {
-    // its images beyond the seams that it crosses
+    // its images beyond the periodic boundaries that it crosses
     std::array<std::array<double, 3>, 2> shifts{};
     std::array<unsigned int, 2>          n_shifts{{1, 1}};
     for (unsigned int d = 0; d < 2; ++d)
@@ -82,7 +82,7 @@ namespace alluvium::refinement
     if (std::all_of(size.begin(), size.end(), [](const double s) { return std::isinf(s); }))
       return;
 
-    // a distance transform by sweeps to and fro with the eight neighbours; seams need a second round
+    // a distance transform by sweeps to and fro with the eight neighbours; periodic boundaries need a second round
     const double across = growth * side[0], up = growth * side[1], diagonal = std::hypot(across, up);
     const int    nx = static_cast<int>(n[0]), ny = static_cast<int>(n[1]);
     const auto   at = [&](int i, int j) {

@@ -11,7 +11,7 @@ namespace alluvium::run
 {
   namespace
   {
-    /** How the grains' velocity of t^n is stable; see doc/equations.md, section on time schemes. */
+    /** How the grains' velocity of t^n is stable; see doc/theory/coupling.md, Stability. */
     struct FrozenVelocity
     {
       double eps           = 1.;

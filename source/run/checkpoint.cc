@@ -82,9 +82,9 @@ namespace alluvium::run
     state["datum"] = m.solver.datum();
     for (const auto &[name, value] : m.parameters)
       state["parameters"][name] = value;
-    if (m.speaks)
+    if (m.is_root)
       save_output(state);
-    write_checked_file(m.communicator, folder_new + "/state", "state", m.speaks ? state.dump(1) : "");
+    write_checked_file(m.communicator, folder_new + "/state", "state", m.is_root ? state.dump(1) : "");
     on_first_rank(m.communicator, [&] {
       const std::string before = folder + ".before";
       fs::remove_all(before);
@@ -195,7 +195,7 @@ namespace alluvium::run
       m.contacts.load(history);
     });
     for (const auto &[path, digest] : m.inputs)
-      if (m.speaks && fs::exists(path) && digest_of_file(path) != digest)
+      if (m.is_root && fs::exists(path) && digest_of_file(path) != digest)
         m.warnings.add("Output/Restart: '" + path +
                          "' is not what this run began with; the grains are those of the checkpoint, and what has "
                          "changed in the file is ignored",

@@ -18,7 +18,7 @@ namespace alluvium::run
     if (m.grains_move)
       contacts = m.contacts.archive();
     more = {};
-    if (m.speaks)
+    if (m.is_root)
       save(more);
     exists = true;
   }

@@ -97,7 +97,7 @@ namespace alluvium::run
   namespace
   {
     /** What falls is made in a scene that stands upright, and turned back. */
-    std::vector<deposits::Seed> make_deposit(const deposits::Deposit &deposit, deposits::DepositContext context)
+    std::vector<deposits::NewGrain> make_deposit(const deposits::Deposit &deposit, deposits::DepositContext context)
     {
       const auto upright = geometry::Upright::of(context.gravity);
       if (!deposit.falls() || upright.is_default())
@@ -123,8 +123,8 @@ namespace alluvium::run
           context.periodicity.lower[d]  = a[d];
           context.periodicity.length[d] = b[d] - a[d];
         }
-      auto seeds = deposit.make(context);
-      for (auto &seed : seeds)
+      auto new_grains = deposit.make(context);
+      for (auto &seed : new_grains)
         {
           const auto x = upright.from({{seed.x, seed.y}}), v = upright.from({{seed.vx, seed.vy}});
           seed.x  = x[0];
@@ -132,7 +132,7 @@ namespace alluvium::run
           seed.vx = v[0];
           seed.vy = v[1];
         }
-      return seeds;
+      return new_grains;
     }
   } // namespace
 
@@ -150,8 +150,8 @@ namespace alluvium::run
     constexpr unsigned int    n_numbers = 7;
     const std::vector<double> numbers =
       broadcast_numbers(communicator, made_on_first_rank(communicator, [&] {
-                          std::vector<std::string>          warnings;
-                          const std::vector<deposits::Seed> seeds =
+                          std::vector<std::string>              warnings;
+                          const std::vector<deposits::NewGrain> new_grains =
                             make_deposit(deposit.get(),
                                          {{{domain.lower()[0], domain.lower()[1]}},
                                           {{domain.upper()[0], domain.upper()[1]}},
@@ -167,7 +167,7 @@ namespace alluvium::run
                           for (const std::string &warning : warnings)
                             std::cerr << "alluvium: warning: " << warning << std::endl;
                           std::vector<double> flat;
-                          for (const auto &s : seeds)
+                          for (const auto &s : new_grains)
                             flat.insert(flat.end(), {s.x, s.y, s.radius, s.density, s.vx, s.vy, s.omega});
                           return flat;
                         }));

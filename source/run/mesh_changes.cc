@@ -117,11 +117,12 @@ namespace alluvium::run
         m.boundary_conditions.set_time(m.time);
         if (m.watches_mesh_changes)
           change.interpolated = totals_now(m);
-        change.rebalanced = m.coupling.rebalance(m.boundary_conditions, m.grains, m.time_step, before, report.share);
-        m.counts["rebalanced flows"] += change.rebalanced;
+        change.reinitialised =
+          m.coupling.reinitialise_flow(m.boundary_conditions, m.grains, m.time_step, before, report.share);
+        m.counts["rebalanced flows"] += change.reinitialised;
         if (m.watches_mesh_changes)
           {
-            change.after   = change.rebalanced ? totals_now(m) : change.interpolated;
+            change.after   = change.reinitialised ? totals_now(m) : change.interpolated;
             change.time    = m.time;
             change.n_cells = report.n_cells;
             change.share   = report.share;

@@ -12,11 +12,11 @@ namespace alluvium::run
 
   Model::Model(MPI_Comm communicator)
     : communicator(communicator)
-    , speaks(Utilities::MPI::this_mpi_process(communicator) == 0)
+    , is_root(Utilities::MPI::this_mpi_process(communicator) == 0)
     , solver(space)
     , coupling(space, solver)
     , store(communicator)
-    , warnings(speaks)
+    , warnings(is_root)
     , coupled_step(solver, coupling, contacts, timers)
   {}
 

@@ -336,7 +336,7 @@ namespace alluvium::run
     for (const auto &warning : model.warnings.all())
       summary->warn(Warnings::in_words(warning));
     on_first_rank(model.communicator, [&] { summary->write(); });
-    if (model.speaks)
+    if (model.is_root)
       {
         double total = 0.;
         for (const auto &[name, phase] : phases)
@@ -348,7 +348,7 @@ namespace alluvium::run
 
   void Output::write_summary_alone(const Ending &ending)
   {
-    if (!model.speaks)
+    if (!model.is_root)
       return;
     fill_summary(ending, model.timers.all());
     for (const auto &warning : model.warnings.all())

@@ -210,7 +210,7 @@ namespace alluvium::run
       text << "none: no step was known to be good";
     std::tie(model.time, model.n_steps, model.counts) = reached;
     output.add_to_summary("run/checkpoint", text.str());
-    if (model.speaks)
+    if (model.is_root)
       std::cout << "Checkpoint: " << text.str() << "." << std::endl;
   }
 
@@ -286,7 +286,7 @@ namespace alluvium::run
       {
         if (!failed_together(of_failures, failure.message))
           {
-            if (model.speaks)
+            if (model.is_root)
               output.write_summary_alone(ending);
             else
               output::Summary::amend(output.folder().file("summary.json"),

@@ -138,7 +138,7 @@ namespace alluvium::run
     const Model &m, const Output &output, const TimeStepControl &control, const double end_time, std::ostream &out)
   {
     const SceneNumbers s = find_scene_numbers(m, end_time); // collective
-    if (!m.speaks)
+    if (!m.is_root)
       return;
     const auto line = [&](const std::string &what, const std::string &text) {
       out << "  " << what << std::string(what.size() < 12 ? 12 - what.size() : 1, ' ') << text << '\n';

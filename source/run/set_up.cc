@@ -52,7 +52,7 @@ namespace alluvium::run
      * Names and formulas, before grains and mesh take their time; set_up_fluid() reads the formulas once more, with the
      * grains' L and d, which are 0 before.
      */
-    void look_at_boundary_conditions(Model &m)
+    void check_boundary_conditions(Model &m)
     {
       m.boundary_conditions.initialize(m.domain.boundary_ids(), formula_constants(m));
       Tensor<1, Model::dim> gradient;
@@ -112,7 +112,7 @@ namespace alluvium::run
 
     /**
      * The first prediction needs the contact forces at rest: without them the bed would "fall" in it. They come from a
-     * step of the contacts under the grains' reduced weight, whose motion is thrown away; or from some steps, if
+     * step of the contacts under the grains' submerged weight, whose motion is thrown away; or from some steps, if
      * nothing moves in them: then the bed is known to be at rest when the run starts.
      */
     void find_initial_contact_forces(Model &m)
@@ -160,7 +160,7 @@ namespace alluvium::run
                "Grains/Deposit = none and Fluid/Model = none: there is nothing to compute.");
     m.domain.initialize(m.communicator, directory);
     if (m.has_fluid)
-      look_at_boundary_conditions(m);
+      check_boundary_conditions(m);
     const auto walls = m.grain_setup.walls(m.domain);
     m.contacts.set_walls(walls);
     m.contacts.set_periodicity(m.domain.periodicity());
@@ -184,7 +184,7 @@ namespace alluvium::run
                                : m.adaptivity.coarse_size(m.refinement_context());
         m.touched.assign(m.grains.n(), 0);
         check_scene_size(m);
-        if (m.speaks)
+        if (m.is_root)
           for (const std::string &path : noted_inputs())
             if (std::filesystem::path(path).extension() == ".csv")
               m.inputs[path] = digest_of_file(path);

@@ -300,7 +300,7 @@ namespace alluvium::run
     const bool       has_grains   = model.grains_move && model.grains.n() > 0;
     const double     grain_defect = has_grains ? grain_error() / tolerance : 0.;
     const double     longest_path = has_grains ? path_step() : infinity;
-    constexpr double much         = 2.; // contacts are dear: what is a little too much is mended in the next step
+    constexpr double much         = 2.; // contacts are expensive: what is a little too much is mended in the next step
     const bool       is_crushed   = has_grains && model.contact_report.crush.depth > 0.;
     if (may_be_shorter() && (grain_defect > much || dt > much * longest_path || is_crushed))
       {

@@ -25,7 +25,7 @@ namespace alluvium
 
   void Warnings::print(const std::string &text) const
   {
-    if (speaks)
+    if (is_root)
       std::cerr << (isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "") << "alluvium: warning: " << text << std::endl;
   }
 

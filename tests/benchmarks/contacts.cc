@@ -115,7 +115,7 @@ namespace
     context.density = density;
     context.gravity = {{0., -gravity}};
     const double t  = cpu_seconds();
-    for (const Seed &s : deposit->make(context))
+    for (const NewGrain &s : deposit->make(context))
       bed.add(s.x, s.y, s.radius, s.vx, s.vy, s.omega);
     std::printf("settled %zu discs in %.2f s CPU\n", bed.grains.n(), cpu_seconds() - t);
     return bed;
@@ -332,7 +332,7 @@ namespace
     prm.set("Contact solver", solver);
     prm.set("Largest number of halvings", "0");
     prm.set("Largest number of sweeps", std::to_string(sweeps));
-    prm.set("Loose factor", "1");
+    prm.set("Stagnation tolerance factor", "1");
     prm.set("Overlap correction", "0"); // opening overlaps would lift the bed, and the floor carry more than its weight
     prm.parse_input_from_string(set);
     stepper.set_walls(walls_of(bed));

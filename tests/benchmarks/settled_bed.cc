@@ -66,17 +66,17 @@ namespace
     ContactStepper stepper;
     double         weight = 0., diameter = 0.;
 
-    Bed(const std::vector<Seed> &seeds, const double width)
+    Bed(const std::vector<NewGrain> &new_grains, const double width)
     {
       const double top = 1e3 * width;
       stepper.set_walls({{{{0., top}}, {{0., 0.}}, {{0., 0.}}, "left"},
                          {{{0., 0.}}, {{width, 0.}}, {{0., 0.}}, "bottom"},
                          {{{width, 0.}}, {{width, top}}, {{0., 0.}}, "right"}});
-      grains.resize(seeds.size());
-      loads.reset(seeds.size());
-      for (std::size_t k = 0; k < seeds.size(); ++k)
+      grains.resize(new_grains.size());
+      loads.reset(new_grains.size());
+      for (std::size_t k = 0; k < new_grains.size(); ++k)
         {
-          const Seed &s         = seeds[k];
+          const NewGrain &s     = new_grains[k];
           grains.id[k]          = static_cast<GrainId>(k);
           grains.position[0][k] = s.x;
           grains.position[1][k] = s.y;
@@ -84,7 +84,7 @@ namespace
           grains.mass[k]        = s.density * M_PI * s.radius * s.radius;
           loads.force[1][k]     = -grains.mass[k] * gravity;
           weight -= loads.force[1][k];
-          diameter += 2. * s.radius / seeds.size();
+          diameter += 2. * s.radius / new_grains.size();
         }
     }
 
@@ -115,22 +115,22 @@ namespace
     deposit->add_parameters(prm);
     prm.parse_input_from_string("set Number of grains = " + std::to_string(n) + "\nset Cache folder =\n" + set);
     DepositContext context;
-    context.lower                 = {{0., 0.}};
-    context.upper                 = {{width, 3. * width}};
-    context.density               = density;
-    context.gravity               = {{0., -gravity}};
-    const double            start = cpu_seconds();
-    const std::vector<Seed> seeds = deposit->make(context);
-    const double            cpu   = cpu_seconds() - start;
-    char                    text[64];
+    context.lower                          = {{0., 0.}};
+    context.upper                          = {{width, 3. * width}};
+    context.density                        = density;
+    context.gravity                        = {{0., -gravity}};
+    const double                start      = cpu_seconds();
+    const std::vector<NewGrain> new_grains = deposit->make(context);
+    const double                cpu        = cpu_seconds() - start;
+    char                        text[64];
     std::snprintf(text, sizeof text, "width = %.17g", width);
-    write_grain_table(file, seeds, text);
+    write_grain_table(file, new_grains, text);
 
-    Bed                 bed(seeds, width);
+    Bed                 bed(new_grains, width);
     const ContactReport overlaps = bed.step(1e-12); // only to measure the overlaps of the deposit as it is
     std::printf("{\"discs\": %zu, \"cpu_s\": %.3f, \"packing\": %.4f, \"mean_penetration_d\": %.2e, "
                 "\"max_penetration_d\": %.2e}\n",
-                seeds.size(),
+                new_grains.size(),
                 cpu,
                 inner_packing_fraction(bed.grains),
                 overlaps.mean_penetration / bed.diameter,

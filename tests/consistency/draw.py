@@ -217,7 +217,7 @@ def make_settings(scene, draw):
     d, put = scene.d, scene.settings
     # tight tolerances: what is left of them is what may differ
     put.update({"Fluid/Linear solver/Tolerance": "1e-12", "Contacts/Residual tolerance": "1e-9", "Contacts/Largest violation": "1e-8",
-                "Contacts/Loose factor": "1", "Output/Interval of statistics": "0", "Output/Interval of pictures": "0",
+                "Contacts/Stagnation tolerance factor": "1", "Output/Interval of statistics": "0", "Output/Interval of pictures": "0",
                 "Output/Digits": "17", "Output/Progress": "silent",
                 "Output/Observers": "head, motion, support, flux, bed, leavers, energy, stress"})
     dt = draw.choice((0.02, 0.05, 0.1)) * math.sqrt(d / 9.81)

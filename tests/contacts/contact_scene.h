@@ -105,7 +105,7 @@ namespace alluvium::contacts::test
     void exact()
     {
       stepper.settings().residual_tolerance = 1e-13;
-      stepper.settings().loose              = 1.;
+      stepper.settings().stagnation_factor  = 1.;
       stepper.settings().dead_zone          = 0.;
       stepper.settings().rest_steps         = 0;
     }

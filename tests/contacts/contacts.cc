@@ -403,7 +403,7 @@ TEST(Contacts, OverlapsOpenSlowly)
   s.floor();
   s.add(0., 0.8 * r);
   s.add(0., 1.9 * r);
-  const double e0 = s.energy(), limit = s.stepper.settings().push_out * std::sqrt(g * d);
+  const double e0 = s.energy(), limit = s.stepper.settings().depenetration_speed * std::sqrt(g * d);
   double       fastest = 0.;
   for (int k = 0; k < 3000; ++k)
     {

@@ -85,7 +85,7 @@ namespace
       for (std::size_t k = 0; k < scene.grains.n(); ++k)
         fastest = std::max(fastest, std::hypot(scene.grains.velocity[0][k], scene.grains.velocity[1][k]));
       const double pull = std::hypot(scene.gx, scene.gy), unit = pull > 0. ? std::sqrt(pull * smallest) : fastest,
-                   push = scene.stepper.settings().push_out * unit;
+                   push = scene.stepper.settings().depenetration_speed * unit;
       return sum == 0. ? 0. : 2. * scene.weight() * sum + 4. * mass * push * push;
     }
 

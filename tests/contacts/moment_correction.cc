@@ -20,10 +20,10 @@ namespace
   ContactTolerance tight()
   {
     ContactTolerance tolerance;
-    tolerance.residual   = 1e-9;
-    tolerance.violation  = 1e-7;
-    tolerance.loose      = 1.;
-    tolerance.max_sweeps = 50000;
+    tolerance.residual          = 1e-9;
+    tolerance.violation         = 1e-7;
+    tolerance.stagnation_factor = 1.;
+    tolerance.max_sweeps        = 50000;
     return tolerance;
   }
 
@@ -122,7 +122,7 @@ TEST(HatGrid, IsAPartitionOfUnity)
           }
 }
 
-// Its values interpolate what is linear, its gradients are that, and over a seam it goes on.
+// Its values interpolate what is linear, its gradients are that, and across a periodic boundary it goes on.
 TEST(HatGrid, InterpolatesAndWraps)
 {
   HatGrid grid;
@@ -263,7 +263,7 @@ TEST(MomentCorrection, MotionIsLeftAlone)
     EXPECT_EQ(heap.problem.contacts[k].rn, before.problem.contacts[k].rn);
 }
 
-// In a periodic box the seam is nowhere in particular.
+// In a periodic box the boundary is nowhere in particular.
 TEST(MomentCorrection, SeamIsNowhere)
 {
   Heap         heap  = resting_heap(60, 30);

@@ -59,7 +59,7 @@ TEST(Periodic, CollisionAcrossTheSide)
 }
 
 // Three discs in a row: the first hits the second, and only that makes the second hit the third, within the same step.
-// The numbers are the same wherever the seam is.
+// The numbers are the same wherever the periodic boundary is.
 TEST(Periodic, CradleAcrossTheSide)
 {
   const double length = 20. * d;
@@ -92,8 +92,8 @@ TEST(Periodic, CradleAcrossTheSide)
       }
 }
 
-// What rests on the seam itself, now on this side of it, now on that, rests.
-TEST(Periodic, RestOnTheSeam)
+// What rests on the periodic boundary itself, now on this side of it, now on that, rests.
+TEST(Periodic, RestOnThePeriodicBoundary)
 {
   const double       length = 10. * d;
   Rest               rest;
@@ -174,7 +174,7 @@ TEST(Periodic, FloorCarriesTheBed)
               r * (0.95 + 0.04 * std::sin(5. * row + column)));
       }
   s.stepper.settings().residual_tolerance = 1e-8;
-  s.stepper.settings().loose              = 1.;
+  s.stepper.settings().stagnation_factor  = 1.;
   s.step(2e-4, 1500);
   EXPECT_LT(s.report.max_velocity, 1e-3);
   EXPECT_NEAR(s.report.wall_force["floor"][1] / -s.weight(), 1., 1e-2 * s.report.max_velocity / 1e-3 + 1e-6);

@@ -195,11 +195,11 @@ TEST(Ranks, BordersFitTogether)
           n_owned += parts[rank].n_owned;
           // by rank, the colours after which a ghost is received
           std::set<std::pair<std::uint32_t, unsigned int>> received, due;
-          for (const ContactBorder &b : parts[rank].borders)
+          for (const ContactHalo &b : parts[rank].halos)
             {
-              const auto &back = parts[b.rank].borders;
+              const auto &back = parts[b.rank].halos;
               const auto  its =
-                std::find_if(back.begin(), back.end(), [&](const ContactBorder &o) { return o.rank == rank; });
+                std::find_if(back.begin(), back.end(), [&](const ContactHalo &o) { return o.rank == rank; });
               ASSERT_TRUE(its != back.end());
               EXPECT_EQ(numbers(rank, b.send), numbers(b.rank, its->receive));
               for (unsigned int c = 0; c < n_colours; ++c)
@@ -244,7 +244,7 @@ TEST(Ranks, GhostsAreKnown)
     scene.grains.position[0], scene.grains.position[1], std::vector<std::uint32_t>(scene.grains.n(), 1), n_ranks());
   const ContactPartition part = make_partition(owner, all, n_colours, my_rank());
   GhostExchange          exchange(MPI_COMM_WORLD);
-  exchange.set_borders(part.borders);
+  exchange.set_halos(part.halos);
   const std::size_t   n = part.grains.size();
   std::vector<double> first(n, -1.), second(n, -1.);
   std::vector<Disc>   discs(n);

@@ -34,10 +34,10 @@ namespace
     solutions.resize(n_ranks);
     return on_ranks(heap, n_ranks, owner, [&](Heap &part, const int rank) {
       ContactTolerance tolerance;
-      tolerance.loose      = 1.;
-      tolerance.residual   = 1e-4;
-      tolerance.max_sweeps = 400;
-      const auto plugin    = make_solver(solver);
+      tolerance.stagnation_factor = 1.;
+      tolerance.residual          = 1e-4;
+      tolerance.max_sweeps        = 400;
+      const auto plugin           = make_solver(solver);
       solutions[rank] = cold ? solve_cold(part.problem, part.places(), {{{0., -1.}}, part.weight}, *plugin, tolerance)
                              : plugin->solve(part.problem, tolerance);
     });
@@ -123,7 +123,7 @@ TEST(Solvers, AllCarryTheWeight)
       Heap             heap(6, 8);
       ContactTolerance tolerance;
       tolerance.residual             = 1e-9;
-      tolerance.loose                = 1.;
+      tolerance.stagnation_factor    = 1.;
       tolerance.max_sweeps           = 20000;
       const ContactSolution solution = make_solver(name)->solve(heap.problem, tolerance);
       EXPECT_TRUE(solution.converged) << name << ' ' << solution.residual;
@@ -139,10 +139,10 @@ TEST(Solvers, OrdersOfGaussSeidelAgree)
     {
       Heap             heap(4, 6);
       ContactTolerance tolerance;
-      tolerance.residual   = 1e-8;
-      tolerance.loose      = 1.;
-      tolerance.max_sweeps = 20000;
-      const auto solution  = make_solver("Gauss-Seidel", "set Order = " + order)->solve(heap.problem, tolerance);
+      tolerance.residual          = 1e-8;
+      tolerance.stagnation_factor = 1.;
+      tolerance.max_sweeps        = 20000;
+      const auto solution         = make_solver("Gauss-Seidel", "set Order = " + order)->solve(heap.problem, tolerance);
       EXPECT_TRUE(solution.converged) << order;
       EXPECT_NEAR(heap.floor_support(), 1., 1e-5) << order;
     }
@@ -196,10 +196,10 @@ TEST(Solvers, SameBitsOnAnyNumberOfRanks)
 TEST(Solvers, ColdStart)
 {
   ContactTolerance tolerance;
-  tolerance.loose      = 1.;
-  tolerance.residual   = 1e-7;
-  tolerance.max_sweeps = 60;
-  const auto solver    = make_solver("accelerated Gauss-Seidel");
+  tolerance.stagnation_factor = 1.;
+  tolerance.residual          = 1e-7;
+  tolerance.max_sweeps        = 60;
+  const auto solver           = make_solver("accelerated Gauss-Seidel");
   Heap       plain(40, 60), cold(40, 60);
   solver->solve(plain.problem, tolerance);
   solve_cold(cold.problem, cold.places(), {{{0., -1.}}, cold.weight}, *solver, tolerance);
@@ -222,7 +222,7 @@ TEST(Solvers, FallbackOfTheWorkQueueHasItsParameters)
       "subsection Contact solver: accelerated Gauss-Seidel\nset " + fallback_parameter + "\nend\n");
     Heap             heap(8, 20);
     ContactTolerance tolerance;
-    tolerance.loose                = 1.;
+    tolerance.stagnation_factor    = 1.;
     const ContactSolution solution = choice.get().solve(heap.problem, tolerance);
     EXPECT_TRUE(solution.converged);
     return solution.sweeps;

@@ -27,7 +27,8 @@ namespace bed
   };
 
   /** A bed of @p n discs 0.2 to 0.24 mm, settled on a floor between walls, @p width apart [m]. */
-  inline std::vector<deposits::Seed> settled_seeds(const unsigned int seed, const unsigned int n, const double width)
+  inline std::vector<deposits::NewGrain>
+  settled_seeds(const unsigned int seed, const unsigned int n, const double width)
   {
     using Registry           = alluvium::Registry<deposits::Deposit>;
     auto             deposit = Registry::entries().at("settled bed").create();
@@ -43,9 +44,9 @@ namespace bed
   inline Bed
   random_bed(const unsigned int seed, const double across = 30., const double layers = 20., const double packing = 0.52)
   {
-    const double d     = 2.2e-4;
-    const double width = across * d;
-    const auto   seeds = settled_seeds(seed, across * (layers + 12.) * 1.06, width);
+    const double d          = 2.2e-4;
+    const double width      = across * d;
+    const auto   new_grains = settled_seeds(seed, across * (layers + 12.) * 1.06, width);
 
     Bed          b;
     const double bottom = 4. * d;
@@ -53,7 +54,7 @@ namespace bed
     b.d                 = d;
     b.width             = width;
     b.height            = layers * d;
-    for (const auto &s : seeds)
+    for (const auto &s : new_grains)
       if (s.y > bottom && s.y < bottom + b.height)
         {
           auto &g = b.grains;
@@ -195,7 +196,7 @@ namespace bed
       prm.set("Rotation", settings.rotation);
       prm.enter_subsection("Time scheme: iterated");
       prm.set("Tolerance", settings.tolerance);
-      prm.set("Repetitions", static_cast<long int>(settings.repetitions));
+      prm.set("Coupling iterations", static_cast<long int>(settings.repetitions));
       prm.leave_subsection();
       prm.leave_subsection();
       coupling.parse_parameters();

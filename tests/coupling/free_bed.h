@@ -34,8 +34,8 @@ namespace bed
       stepper.settings().residual_tolerance = f.residual_tolerance;
       if (f.is_strict)
         {
-          stepper.settings().loose         = 1.;
-          stepper.settings().halve_stalled = true;
+          stepper.settings().stagnation_factor = 1.;
+          stepper.settings().halve_stalled     = true;
         }
       stepper.settings().friction = f.friction;
       double area                 = 0.;
@@ -82,7 +82,7 @@ namespace bed
       return sum / grains.n();
     }
 
-    double                             width, onset = 0., time = 0.; // [m], reduced weight over width [Pa], [s]
+    double                             width, onset = 0., time = 0.; // [m], submerged weight over width [Pa], [s]
     Channel                            channel;
     alluvium::contacts::ContactStepper stepper;
     alluvium::Timers                   timers;

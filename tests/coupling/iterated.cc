@@ -78,7 +78,7 @@ namespace
           continue;
         result.flux.push_back(free.flux() / fixed.flux());
         result.error.push_back(free.prediction_error() * free.width / fixed.flux());
-        result.n_repetitions += free.coupled_step.iteration().n_repetitions();
+        result.n_repetitions += free.coupled_step.iteration().n_iterations();
         EXPECT_TRUE(free.coupled_step.iteration().agrees());
       }
     return result;
@@ -120,11 +120,11 @@ namespace
     bed.set_head(0.6);
     const auto before = bed.grains;
     bed.step();
-    EXPECT_GT(bed.coupled_step.iteration().n_repetitions(), 0u);
+    EXPECT_GT(bed.coupled_step.iteration().n_iterations(), 0u);
     EXPECT_TRUE(bed.coupled_step.iteration().agrees());
     const auto &r = bed.channel.coupling.report();
-    EXPECT_LT(std::hypot(r.unseen_force[0], r.unseen_force[1]), 1e-8 * r.force_scale);
-    // grain by grain: m (v - v^n)/dt = reduced weight + force that the fluid received + contacts
+    EXPECT_LT(std::hypot(r.momentum_defect[0], r.momentum_defect[1]), 1e-8 * r.force_scale);
+    // grain by grain: m (v - v^n)/dt = submerged weight + force that the fluid received + contacts
     for (std::size_t k = 0; k < bed.grains.n(); ++k)
       {
         const double volume = numbers::PI * before.fluid_radius[k] * before.fluid_radius[k];
@@ -154,7 +154,7 @@ namespace
         bed.step();
         const auto &r = bed.channel.coupling.report();
         for (unsigned int d = 0; d < 2; ++d)
-          missing[d] += r.unseen_force[d];
+          missing[d] += r.momentum_defect[d];
         received += r.force_scale;
       }
     return std::hypot(missing[0], missing[1]) / received;
@@ -182,23 +182,23 @@ namespace
       {
         const auto before = bed.grains;
         bed.step();
-        n_tight += bed.report.hasty ? 0 : bed.coupled_step.iteration().n_repetitions() > 0;
+        n_tight += bed.report.was_loosened ? 0 : bed.coupled_step.iteration().n_iterations() > 0;
         coupling::GrainMotion motion{bed.grains.velocity, bed.grains.omega};
         for (unsigned int d = 0; d < 2; ++d)
           for (std::size_t g = 0; g < before.n(); ++g)
             motion.velocity[d][g] = (bed.grains.position[d][g] - before.position[d][g]) / s.dt;
         const auto           &c      = bed.channel.coupling;
-        const auto            unseen = c.unseen_force(bed.grains, before.velocity, motion, bed.channel.loads);
+        const auto            defect = c.momentum_defect(bed.grains, before.velocity, motion, bed.channel.loads);
         std::array<double, 2> sum    = {{0., 0.}};
         double                square = 0.;
-        for (std::size_t i = 0; i < unseen.size(); ++i)
+        for (std::size_t i = 0; i < defect.size(); ++i)
           {
-            sum[i % 2] += unseen[i];
-            square += unseen[i] * unseen[i];
+            sum[i % 2] += defect[i];
+            square += defect[i] * defect[i];
           }
-        const double tolerance = bed.coupled_step.iteration().n_repetitions() == 0 ? 0.1 * s.tolerance : s.tolerance;
+        const double tolerance = bed.coupled_step.iteration().n_iterations() == 0 ? 0.1 * s.tolerance : s.tolerance;
         const double ratio =
-          std::max(std::sqrt(2. * square / unseen.size()) / (tolerance * c.typical_force(bed.grains)),
+          std::max(std::sqrt(2. * square / defect.size()) / (tolerance * c.typical_force(bed.grains)),
                    std::hypot(sum[0], sum[1]) / (0.1 * tolerance * c.report().force_scale));
         if (std::abs(ratio - 1.) > 1e-6)
           {

@@ -39,7 +39,7 @@ namespace
       }
   }
 
-  /** Some grains move a little, far, or over a seam; the rest keeps its pieces. */
+  /** Some grains move a little, far, or across a periodic boundary; the rest keeps its pieces. */
   void keeps_what_stands(const bool periodic, const coupling::OverlapSettings &rule)
   {
     Bed      bed = random_bed(1, 20., 10.);
@@ -307,7 +307,7 @@ namespace
           }
   }
 
-  // By lines or cell by cell: beside mirrors and seams, and where nodes hang.
+  // By lines or cell by cell: beside mirrors and periodic boundaries, and where nodes hang.
   TEST(OverlapMap, BothWaysOfCuttingAgree)
   {
     using Shape = coupling::OverlapSettings::Shape;

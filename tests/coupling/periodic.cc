@@ -68,7 +68,7 @@ TEST(Periodic, FluxOfTheShiftedBed)
           if (cells == 0.)
             flux = found.over_darcy;
           EXPECT_NEAR(found.over_darcy / flux, 1., 1e-6) << h << ' ' << cells;
-          EXPECT_NEAR(found.over_darcy, 1., 0.05) << h; // the seam of the bed has been a wall
+          EXPECT_NEAR(found.over_darcy, 1., 0.05) << h; // the periodic boundary of the bed has been a wall
           EXPECT_NEAR(found.imbalance, 0., 1e-5);
           EXPECT_LT(found.third_law, 1e-12);
         }

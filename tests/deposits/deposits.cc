@@ -37,7 +37,8 @@ namespace
 
   using test::arrays;
 
-  std::vector<Seed> make(const std::string &name, const std::string &parameters, const DepositContext &c = context())
+  std::vector<NewGrain>
+  make(const std::string &name, const std::string &parameters, const DepositContext &c = context())
   {
     return test::make(name, parameters, c);
   }
@@ -50,7 +51,7 @@ namespace
             {{{u[0], l[1]}}, u, {{0., 0.}}, "right"}};
   }
 
-  bool same(const std::vector<Seed> &a, const std::vector<Seed> &b)
+  bool same(const std::vector<NewGrain> &a, const std::vector<NewGrain> &b)
   {
     bool equal = a.size() == b.size();
     for (std::size_t k = 0; equal && k < a.size(); ++k)
@@ -59,7 +60,7 @@ namespace
   }
 
   /** Packing of the middle of a bed: half-width strips at the walls and the free surface left out. */
-  double packing(const std::vector<Seed> &seeds, const DepositContext &c, const double y0, const double y1)
+  double packing(const std::vector<NewGrain> &new_grains, const DepositContext &c, const double y0, const double y1)
   {
     // Sampling on a fine raster is exact enough here.
     int          inside = 0, all = 0;
@@ -68,7 +69,7 @@ namespace
       for (double x = x0; x < x1; x += h)
         {
           ++all;
-          for (const Seed &s : seeds)
+          for (const NewGrain &s : new_grains)
             if (std::hypot(s.x - x, s.y - y) < s.radius)
               {
                 ++inside;
@@ -99,12 +100,12 @@ namespace
 
 TEST(Deposits, SettledBedStandsAndItsWallsCarryIt)
 {
-  const auto c     = context();
-  const auto seeds = make("settled bed", "set Number of grains = 500\nset Cache folder =");
-  ASSERT_EQ(seeds.size(), 500u);
-  GrainArrays grains = arrays(seeds);
+  const auto c          = context();
+  const auto new_grains = make("settled bed", "set Number of grains = 500\nset Cache folder =");
+  ASSERT_EQ(new_grains.size(), 500u);
+  GrainArrays grains = arrays(new_grains);
   EXPECT_TRUE(find_overlaps(grains, box(c), 1e-3 * 2e-4).empty());
-  const double phi = packing(seeds, c, c.lower[1] + 5e-4, c.lower[1] + 2.5e-3);
+  const double phi = packing(new_grains, c, c.lower[1] + 5e-4, c.lower[1] + 2.5e-3);
   EXPECT_GT(phi, 0.79);
   EXPECT_LT(phi, 0.85);
 
@@ -146,11 +147,11 @@ TEST(Deposits, SettledBedStandsAndItsWallsCarryIt)
 // short ones.
 TEST(Deposits, SettledBedStays)
 {
-  const auto c     = context(1e-2, 3e-2);
-  const auto seeds = make("settled bed", "set Number of grains = 2000\nset Cache folder =", c);
+  const auto c          = context(1e-2, 3e-2);
+  const auto new_grains = make("settled bed", "set Number of grains = 2000\nset Cache folder =", c);
   for (const double dt : {1e-3, 1e-4})
     {
-      GrainArrays    grains = arrays(seeds);
+      GrainArrays    grains = arrays(new_grains);
       ContactStepper stepper;
       stepper.set_walls(box(c));
       stepper.settings().residual_tolerance = 1e-7;
@@ -169,7 +170,8 @@ TEST(Deposits, SettledBedStays)
           support -= force[1] / weight / n_steps;
       EXPECT_NEAR(support, 1., 1e-4) << dt;
       for (std::size_t k = 0; k < grains.n(); ++k)
-        EXPECT_LT(std::hypot(grains.position[0][k] - seeds[k].x, grains.position[1][k] - seeds[k].y), 3e-4 * 2e-4)
+        EXPECT_LT(std::hypot(grains.position[0][k] - new_grains[k].x, grains.position[1][k] - new_grains[k].y),
+                  3e-4 * 2e-4)
           << dt;
     }
 }
@@ -207,7 +209,7 @@ TEST(Deposits, PouredDiscsDoNotOverlap)
     }
 }
 
-// In a domain that is periodic in x, grains lie across its seam as they do elsewhere.
+// In a domain that is periodic in x, grains lie across its periodic boundary as they do elsewhere.
 TEST(Deposits, PeriodicDomain)
 {
   auto c        = context(6e-3, 2e-2);
@@ -219,11 +221,11 @@ TEST(Deposits, PeriodicDomain)
         std::make_pair("settled bed", "set Number of grains = 900\nset Cache folder ="),
         std::make_pair("settled bed", "set Number of grains = 0\nset Bed height = 4e-3\nset Cache folder =")})
     {
-      const auto  seeds   = make(name, parameters, c);
-      GrainArrays grains  = arrays(seeds);
-      int         n_over  = 0;
+      const auto  new_grains = make(name, parameters, c);
+      GrainArrays grains     = arrays(new_grains);
+      int         n_over     = 0;
       double      at_seam = 0., inside = 0.; // area of discs in strips of ten diameters
-      for (const Seed &s : seeds)
+      for (const NewGrain &s : new_grains)
         {
           ASSERT_GE(s.x, c.lower[0]);
           ASSERT_LE(s.x, c.upper[0]);
@@ -238,22 +240,22 @@ TEST(Deposits, PeriodicDomain)
         }
       else
         {
-          EXPECT_EQ(seeds.size(), 29u * 97u); // 6 mm hold 29 cells, a little wider than asked for
+          EXPECT_EQ(new_grains.size(), 29u * 97u); // 6 mm hold 29 cells, a little wider than asked for
         }
     }
 }
 
 TEST(Deposits, PeriodicInBothDirections)
 {
-  auto c             = context(2e-3, 3e-3);
-  c.periodicity      = {c.lower, {{2e-3, 3e-3}}};
-  const auto  seeds  = make("random suspension", "set Area fraction = 0.45\nset Smallest gap = 4e-6", c);
-  GrainArrays grains = arrays(seeds);
+  auto c                 = context(2e-3, 3e-3);
+  c.periodicity          = {c.lower, {{2e-3, 3e-3}}};
+  const auto  new_grains = make("random suspension", "set Area fraction = 0.45\nset Smallest gap = 4e-6", c);
+  GrainArrays grains     = arrays(new_grains);
   for (double &r : grains.radius)
     r += 1.9999e-6;
   EXPECT_TRUE(find_overlaps(grains, {}, 0., c.periodicity).empty());
   int n_over[2] = {0, 0};
-  for (const Seed &s : seeds)
+  for (const NewGrain &s : new_grains)
     {
       n_over[0] += s.x - s.radius < c.lower[0] || s.x + s.radius > c.upper[0];
       n_over[1] += s.y - s.radius < c.lower[1] || s.y + s.radius > c.upper[1];
@@ -261,7 +263,7 @@ TEST(Deposits, PeriodicInBothDirections)
   EXPECT_GT(n_over[0], 0);
   EXPECT_GT(n_over[1], 0);
   // A box that is not the whole domain has sides.
-  for (const Seed &s : make("random suspension", "set Box = 1e-3, -2e-3, 2e-3, 1e-3\nset Area fraction = 0.3", c))
+  for (const NewGrain &s : make("random suspension", "set Box = 1e-3, -2e-3, 2e-3, 1e-3\nset Area fraction = 0.3", c))
     EXPECT_GE(s.x, c.lower[0] + s.radius);
   EXPECT_THROW(make("settled bed", "set Number of grains = 10\nset Smallest diameter = 6e-4", c), UserError);
 }
@@ -271,8 +273,8 @@ TEST(Deposits, PeriodicSettledBedStays)
 {
   auto c                     = context(5e-3, 2e-2);
   c.periodicity              = {c.lower, {{5e-3, 0.}}};
-  const auto  seeds          = make("settled bed", "set Number of grains = 800\nset Cache folder =", c);
-  GrainArrays grains         = arrays(seeds);
+  const auto  new_grains     = make("settled bed", "set Number of grains = 800\nset Cache folder =", c);
+  GrainArrays grains         = arrays(new_grains);
   grains.initial_position[0] = grains.position[0];
   ContactStepper stepper;
   stepper.set_walls({{c.lower, {{c.upper[0], c.lower[1]}}, {{0., 0.}}, "bottom"}});
@@ -291,25 +293,26 @@ TEST(Deposits, PeriodicSettledBedStays)
     support += stepper.advance(grains, loads, 1e-3, {{0., -9.81}}).wall_force["bottom"][1] / weight / -10.;
   EXPECT_NEAR(support, 1., 1e-4);
   for (std::size_t k = 0; k < grains.n(); ++k)
-    EXPECT_LT(std::hypot(grains.position[0][k] - grains.initial_position[0][k], grains.position[1][k] - seeds[k].y),
-              1e-3 * 2e-4);
+    EXPECT_LT(
+      std::hypot(grains.position[0][k] - grains.initial_position[0][k], grains.position[1][k] - new_grains[k].y),
+      1e-3 * 2e-4);
 }
 
 // Packing is measured exactly enough: a square lattice has pi / 4 (d / a)^2.
 TEST(Deposits, PackingFraction)
 {
-  const auto seeds = make("lattice", "set Diameter = 1e-4\nset Spacing = 1.25e-4\nset Box = 0, 0, 0.01, 0.01");
-  EXPECT_NEAR(inner_packing_fraction(arrays(seeds)), 0.25 * M_PI * 0.64, 0.01);
-  EXPECT_EQ(inner_packing_fraction(arrays({seeds[0], seeds[1]})), 0.);
+  const auto new_grains = make("lattice", "set Diameter = 1e-4\nset Spacing = 1.25e-4\nset Box = 0, 0, 0.01, 0.01");
+  EXPECT_NEAR(inner_packing_fraction(arrays(new_grains)), 0.25 * M_PI * 0.64, 0.01);
+  EXPECT_EQ(inner_packing_fraction(arrays({new_grains[0], new_grains[1]})), 0.);
   EXPECT_EQ(inner_packing_fraction(GrainArrays()), 0.);
 }
 
 TEST(Deposits, SettledBedHasTheWantedPacking)
 {
-  const auto        c     = context();
-  const std::string p     = "set Number of grains = 700\nset Cache folder =\nset Packing fraction = ";
-  const auto        seeds = make("settled bed", p + "0.80", c);
-  EXPECT_NEAR(inner_packing_fraction(arrays(seeds)), 0.80, 5e-3);
+  const auto        c          = context();
+  const std::string p          = "set Number of grains = 700\nset Cache folder =\nset Packing fraction = ";
+  const auto        new_grains = make("settled bed", p + "0.80", c);
+  EXPECT_NEAR(inner_packing_fraction(arrays(new_grains)), 0.80, 5e-3);
   EXPECT_THROW(make("settled bed", p + "0.9", c), UserError);
 }
 
@@ -428,10 +431,10 @@ TEST(Deposits, WhatCannotFitIsRefusedAtOnce)
 
 TEST(Deposits, SettledBedByHeight)
 {
-  const auto c     = context();
-  const auto seeds = make("settled bed", "set Number of grains = 0\nset Bed height = 2e-3\nset Cache folder =");
+  const auto c          = context();
+  const auto new_grains = make("settled bed", "set Number of grains = 0\nset Bed height = 2e-3\nset Cache folder =");
   double     top = -1., area = 0.;
-  for (const Seed &s : seeds)
+  for (const NewGrain &s : new_grains)
     {
       top = std::max(top, s.y + s.radius - c.lower[1]);
       area += M_PI * s.radius * s.radius;
@@ -444,10 +447,10 @@ TEST(Deposits, SettledBedByHeight)
 
 TEST(Deposits, Lattice)
 {
-  const auto seeds = make("lattice", "set Diameter = 1e-3\nset Spacing = 2e-3\nset Box = 0, 0, 0.01, 0.006");
-  ASSERT_EQ(seeds.size(), 15u);
-  EXPECT_NEAR(seeds[0].x, 1e-3, 1e-15);
-  EXPECT_NEAR(seeds[14].y, 5e-3, 1e-15);
+  const auto new_grains = make("lattice", "set Diameter = 1e-3\nset Spacing = 2e-3\nset Box = 0, 0, 0.01, 0.006");
+  ASSERT_EQ(new_grains.size(), 15u);
+  EXPECT_NEAR(new_grains[0].x, 1e-3, 1e-15);
+  EXPECT_NEAR(new_grains[14].y, 5e-3, 1e-15);
   const auto half = make("lattice", "set Diameter = 2e-4\nset Area fraction = 0.5");
   EXPECT_NEAR(half.size() * M_PI * 1e-8 / (5e-3 * 2e-2), 0.5, 0.03);
   EXPECT_THROW(make("lattice", "set Diameter = 1\n"), UserError);
@@ -457,17 +460,17 @@ TEST(Deposits, Lattice)
 
 TEST(Deposits, RandomSuspension)
 {
-  const auto c     = context();
-  const auto seeds = make("random suspension", "set Area fraction = 0.4\nset Smallest gap = 1e-5", c);
-  double     area  = 0.;
-  for (const Seed &s : seeds)
+  const auto c          = context();
+  const auto new_grains = make("random suspension", "set Area fraction = 0.4\nset Smallest gap = 1e-5", c);
+  double     area       = 0.;
+  for (const NewGrain &s : new_grains)
     area += M_PI * s.radius * s.radius;
   EXPECT_NEAR(area / (5e-3 * 2e-2), 0.4, 1e-3);
-  GrainArrays grains = arrays(seeds);
+  GrainArrays grains = arrays(new_grains);
   for (double &r : grains.radius)
     r += 0.4999e-5;
   EXPECT_TRUE(find_overlaps(grains, box(c), 0.).empty());
-  EXPECT_TRUE(same(seeds, make("random suspension", "set Area fraction = 0.4\nset Smallest gap = 1e-5", c)));
+  EXPECT_TRUE(same(new_grains, make("random suspension", "set Area fraction = 0.4\nset Smallest gap = 1e-5", c)));
   EXPECT_THROW(make("random suspension", "set Area fraction = 0.8", context(2e-3, 2e-3)), UserError);
   EXPECT_THROW(make("random suspension", "set Area fraction = 0"), UserError);
 }
@@ -476,11 +479,11 @@ TEST(Deposits, FileIsReadWhateverItsColumnOrder)
 {
   const std::string file = "/tmp/alluvium_table_" + std::to_string(getpid()) + ".csv";
   std::ofstream(file) << "# made by hand\nradius, x,y,vx\n1e-4,0.1,0.2,3\n\n2e-4, 0.3,-0.4 ,0\r\n";
-  const auto seeds = make("file", "set File = " + file);
-  ASSERT_EQ(seeds.size(), 2u);
-  EXPECT_EQ(seeds[0].vx, 3.);
-  EXPECT_EQ(seeds[1].y, -0.4);
-  EXPECT_EQ(seeds[1].density, 2630.);
+  const auto new_grains = make("file", "set File = " + file);
+  ASSERT_EQ(new_grains.size(), 2u);
+  EXPECT_EQ(new_grains[0].vx, 3.);
+  EXPECT_EQ(new_grains[1].y, -0.4);
+  EXPECT_EQ(new_grains[1].density, 2630.);
   write_grain_table(file, {{1. / 3., 2. / 3., 1e-4 / 7., 2630.}}, "a comment");
   EXPECT_EQ(read_grain_table(file, 1.)[0].radius, 1e-4 / 7.);
   std::filesystem::remove(file);

@@ -54,9 +54,9 @@ namespace
   using test::arrays, test::make;
 
   /** Nobody overlaps a wall or another; and let go, hardly anybody moves. */
-  void expect_at_rest(const std::vector<Seed> &seeds, const DepositContext &c)
+  void expect_at_rest(const std::vector<NewGrain> &new_grains, const DepositContext &c)
   {
-    GrainArrays grains = arrays(seeds);
+    GrainArrays grains = arrays(new_grains);
     EXPECT_TRUE(find_overlaps(grains, c.walls, 1e-3 * d).empty());
     ContactStepper stepper;
     stepper.set_walls(c.walls);
@@ -68,19 +68,21 @@ namespace
       stepper.advance(grains, loads, 5e-4, {{0., -9.81}});
     int moved = 0;
     for (std::size_t k = 0; k < grains.n(); ++k)
-      moved += std::hypot(grains.position[0][k] - seeds[k].x, grains.position[1][k] - seeds[k].y) > 0.01 * d;
+      moved += std::hypot(grains.position[0][k] - new_grains[k].x, grains.position[1][k] - new_grains[k].y) > 0.01 * d;
     EXPECT_LE(moved, static_cast<int>(grains.n() / 100));
   }
 
   /** Packing in a rectangle, by a raster. */
-  double packing(const std::vector<Seed> &seeds, const double x0, const double y0, const double x1, const double y1)
+  double
+  packing(const std::vector<NewGrain> &new_grains, const double x0, const double y0, const double x1, const double y1)
   {
     int          inside = 0, all = 0;
     const double h = 2e-5;
     for (double y = y0; y < y1; y += h)
       for (double x = x0; x < x1; x += h, ++all)
-        inside += std::any_of(
-          seeds.begin(), seeds.end(), [&](const Seed &s) { return std::hypot(s.x - x, s.y - y) < s.radius; });
+        inside += std::any_of(new_grains.begin(), new_grains.end(), [&](const NewGrain &s) {
+          return std::hypot(s.x - x, s.y - y) < s.radius;
+        });
     return double(inside) / all;
   }
 
@@ -113,27 +115,27 @@ TEST(DepositsAmongWalls, AreaOfTheRoom)
 // A sheet pile from above: grains on both sides of it, and below it.
 TEST(DepositsAmongWalls, Pile)
 {
-  const auto c     = context({wall(3e-3, 2e-3, 3e-3, 8e-3)});
-  const auto seeds = make("settled bed", bed + "set Friction while settling = 0.4", c);
-  EXPECT_EQ(seeds.size(), 600u);
-  expect_at_rest(seeds, c);
+  const auto c          = context({wall(3e-3, 2e-3, 3e-3, 8e-3)});
+  const auto new_grains = make("settled bed", bed + "set Friction while settling = 0.4", c);
+  EXPECT_EQ(new_grains.size(), 600u);
+  expect_at_rest(new_grains, c);
   double left = 0., right = 0.;
-  for (const Seed &s : seeds)
+  for (const NewGrain &s : new_grains)
     (s.x < 3e-3 ? left : right) = std::max(s.x < 3e-3 ? left : right, s.y);
   EXPECT_NEAR(left, right, 3. * d);
-  EXPECT_GT(packing(seeds, 0.5e-3, 0.5e-3, 2.5e-3, 2.5e-3), 0.78);
+  EXPECT_GT(packing(new_grains, 0.5e-3, 0.5e-3, 2.5e-3, 2.5e-3), 0.78);
 }
 
 // A slope from side to side: the bed lies on it, nobody is below.
 TEST(DepositsAmongWalls, Slope)
 {
-  const auto c     = context({wall(0., 3e-3, 6e-3, 1e-3)});
-  const auto seeds = make("settled bed", bed, c);
-  EXPECT_EQ(seeds.size(), 600u);
-  for (const Seed &s : seeds)
+  const auto c          = context({wall(0., 3e-3, 6e-3, 1e-3)});
+  const auto new_grains = make("settled bed", bed, c);
+  EXPECT_EQ(new_grains.size(), 600u);
+  for (const NewGrain &s : new_grains)
     EXPECT_GT(s.y, 3e-3 - s.x / 3.);
-  expect_at_rest(seeds, c);
-  EXPECT_GT(packing(seeds, 2e-3, 2.8e-3, 5e-3, 4e-3), 0.78);
+  expect_at_rest(new_grains, c);
+  EXPECT_GT(packing(new_grains, 2e-3, 2.8e-3, 5e-3, 4e-3), 0.78);
 }
 
 // An obstacle of the mesh, a dam, and an inclined side of the domain.
@@ -145,17 +147,17 @@ TEST(DepositsAmongWalls, ObstacleOfTheMesh)
   const auto obstacle = polygon({{{2e-3, 1e-3}}, {{2e-3, 2e-3}}, {{3.5e-3, 2.5e-3}}, {{3.5e-3, 1e-3}}});
   c.sides             = polygon({{{0., 0.}}, {{5e-3, 0.}}, {{6e-3, 2e-3}}, {{6e-3, 8e-3}}, {{0., 8e-3}}});
   c.sides.insert(c.sides.end(), obstacle.begin(), obstacle.end());
-  const auto seeds = make("settled bed", bed, c);
-  EXPECT_EQ(seeds.size(), 600u);
-  expect_at_rest(seeds, c);
-  for (const Seed &s : seeds)
+  const auto new_grains = make("settled bed", bed, c);
+  EXPECT_EQ(new_grains.size(), 600u);
+  expect_at_rest(new_grains, c);
+  for (const NewGrain &s : new_grains)
     {
       EXPECT_FALSE(s.x > 2e-3 && s.x < 3.5e-3 && s.y > 1e-3 && s.y < 2e-3);
       EXPECT_FALSE(s.x > 5e-3 + 0.5 * s.y);
     }
   const auto by_height = make("settled bed", "set Number of grains = 0\nset Bed height = 4e-3\nset Cache folder =", c);
   double     top       = 0.;
-  for (const Seed &s : by_height)
+  for (const NewGrain &s : by_height)
     top = std::max(top, s.y + s.radius);
   EXPECT_LE(top, 4e-3 + 1e-9);
   EXPECT_GT(top, 4e-3 - 2. * d);
@@ -167,7 +169,7 @@ TEST(DepositsAmongWalls, ObstacleOfTheMesh)
   EXPECT_NEAR(room.area(), area, 1e-12 * area);
   const auto cloud = make("random suspension", "set Area fraction = 0.3\nset Smallest gap = 1e-5", c);
   double     solid = 0.;
-  for (const Seed &s : cloud)
+  for (const NewGrain &s : cloud)
     solid += M_PI * s.radius * s.radius;
   EXPECT_NEAR(solid, 0.3 * area, 0.01 * area);
   EXPECT_TRUE(find_overlaps(arrays(cloud), c.walls, -0.99e-5).empty());
@@ -175,7 +177,7 @@ TEST(DepositsAmongWalls, ObstacleOfTheMesh)
   EXPECT_TRUE(find_overlaps(arrays(lattice), c.walls, 1e-12).empty());
   EXPECT_NEAR(lattice.size() * 6.25e-8, area, 0.15 * area);
   for (const auto *list : {&cloud, &lattice})
-    for (const Seed &s : *list)
+    for (const NewGrain &s : *list)
       EXPECT_TRUE(room.fits(s.x, s.y, 0.5 * d));
 }
 
@@ -183,10 +185,10 @@ TEST(DepositsAmongWalls, WantedPacking)
 {
   const auto   c      = context({wall(3e-3, 2e-3, 3e-3, 8e-3)});
   const double wanted = 0.79;
-  const auto   seeds =
+  const auto   new_grains =
     make("settled bed", "set Number of grains = 550\nset Cache folder =\nset Packing fraction = 0.79", c);
-  const double left  = packing(seeds, 0.5e-3, 0.5e-3, 2.5e-3, 3e-3),
-               right = packing(seeds, 3.5e-3, 0.5e-3, 5.5e-3, 3e-3);
+  const double left  = packing(new_grains, 0.5e-3, 0.5e-3, 2.5e-3, 3e-3),
+               right = packing(new_grains, 3.5e-3, 0.5e-3, 5.5e-3, 3e-3);
   EXPECT_NEAR(0.5 * (left + right), wanted, 0.015);
 }
 

@@ -14,7 +14,7 @@ namespace alluvium::deposits::test
   using namespace grains;
 
   /** What the deposit @p name with @p parameters makes in @p c. */
-  inline std::vector<Seed> make(const std::string &name, const std::string &parameters, const DepositContext &c)
+  inline std::vector<NewGrain> make(const std::string &name, const std::string &parameters, const DepositContext &c)
   {
     dealii::ParameterHandler prm;
     auto                     deposit = Registry<Deposit>::entries().at(name).create();
@@ -23,17 +23,17 @@ namespace alluvium::deposits::test
     return deposit->make(c);
   }
 
-  inline GrainArrays arrays(const std::vector<Seed> &seeds)
+  inline GrainArrays arrays(const std::vector<NewGrain> &new_grains)
   {
     GrainArrays grains;
-    grains.resize(seeds.size());
-    for (std::size_t k = 0; k < seeds.size(); ++k)
+    grains.resize(new_grains.size());
+    for (std::size_t k = 0; k < new_grains.size(); ++k)
       {
         grains.id[k]          = static_cast<GrainId>(k);
-        grains.position[0][k] = seeds[k].x;
-        grains.position[1][k] = seeds[k].y;
-        grains.radius[k]      = seeds[k].radius;
-        grains.mass[k]        = seeds[k].density * M_PI * seeds[k].radius * seeds[k].radius;
+        grains.position[0][k] = new_grains[k].x;
+        grains.position[1][k] = new_grains[k].y;
+        grains.radius[k]      = new_grains[k].radius;
+        grains.mass[k]        = new_grains[k].density * M_PI * new_grains[k].radius * new_grains[k].radius;
       }
     return grains;
   }

@@ -254,10 +254,10 @@ TEST(GridCutter, TooManyLines)
   for (unsigned i = 0; i < 1000; ++i)
     cells.push_back(rectangle(i, i, i + 0.5, i + 0.5));
   EXPECT_TRUE(RectangleGrid(cells).empty());
-  EXPECT_TRUE(RectangleGrid(cells).too_uneven());
+  EXPECT_TRUE(RectangleGrid(cells).is_non_tensor());
   cells.resize(100);
   EXPECT_FALSE(RectangleGrid(cells).empty());
-  EXPECT_FALSE(RectangleGrid(cells).too_uneven());
+  EXPECT_FALSE(RectangleGrid(cells).is_non_tensor());
 }
 
 
@@ -265,7 +265,7 @@ TEST(GridCutter, OtherCellsMakeNoGrid)
 {
   EXPECT_TRUE(RectangleGrid().empty());
   EXPECT_TRUE(RectangleGrid(Mesh(Shape::triangles, 3, 1.).cells).empty());
-  EXPECT_FALSE(RectangleGrid(Mesh(Shape::triangles, 3, 1.).cells).too_uneven());
+  EXPECT_FALSE(RectangleGrid(Mesh(Shape::triangles, 3, 1.).cells).is_non_tensor());
   EXPECT_TRUE(RectangleGrid(Mesh(Shape::distorted, 3, 1.).cells).empty());
   // turned by a quarter: the first vertex is not the lower left one
   const PreparedPolygon turned(ConvexPolygon{{{{{1., 0.}}, {{1., 1.}}, {{0., 1.}}, {{0., 0.}}}}, 4});

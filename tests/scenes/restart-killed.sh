@@ -15,7 +15,7 @@ resting=
 triangles=$'subsection Domain\n set Mesh file = data/bed.msh\nend'
 uniform=$'subsection Mesh refinement\n set Criteria = uniform\nend'
 
-as_it_comes=(--set 'Contacts/Residual tolerance=1e-5' --set 'Contacts/Largest violation=1e-3' --set 'Contacts/Loose factor=10'
+as_it_comes=(--set 'Contacts/Residual tolerance=1e-5' --set 'Contacts/Largest violation=1e-3' --set 'Contacts/Stagnation tolerance factor=10'
              --set 'Fluid/Linear solver/Tolerance=1e-8' --set 'Contacts/Least grains a rank=20')
 
 disturb() { # KIND RANKS KILLS SEED STEPS [ARGUMENTS...]

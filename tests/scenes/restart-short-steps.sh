@@ -9,7 +9,7 @@ end
 subsection Contacts
   set Residual tolerance = 1e-3
   set Largest violation  = 1
-  set Loose factor       = 100
+  set Stagnation tolerance factor = 100
 end
 subsection Output
   set Interval of statistics = 0

@@ -20,7 +20,7 @@ two_parts() {
   grep -q 'changed: Time/End time: 0.01 -> 0.02' screen-output || fail "it does not say what has changed"
 }
 
-as_it_comes=(--set 'Contacts/Residual tolerance=1e-5' --set 'Contacts/Largest violation=1e-3' --set 'Contacts/Loose factor=10'
+as_it_comes=(--set 'Contacts/Residual tolerance=1e-5' --set 'Contacts/Largest violation=1e-3' --set 'Contacts/Stagnation tolerance factor=10'
              --set 'Fluid/Linear solver/Tolerance=1e-8' --set 'Boundary conditions/Pressure=top: 0; bottom: rho*g*H + 1.5*rho*g*L')
 every=(--set 'Output/Interval of checkpoints=0.01')
 

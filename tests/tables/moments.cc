@@ -51,7 +51,7 @@ namespace
     deposit->add_parameters(prm);
     prm.parse_input_from_string("set Number of grains = " + std::to_string(n) +
                                 "\nset Smallest diameter = 0.9e-3\nset Size ratio = 1.2\nset Cache folder =\n");
-    for (const deposits::Seed &s : deposit->make(context))
+    for (const deposits::NewGrain &s : deposit->make(context))
       scene.add(s.x, s.y, 0., 0., s.radius);
   }
 
@@ -61,7 +61,7 @@ namespace
     double sum = 0., largest = 0.;
     for (std::size_t k = 0; k < scene.grains.n(); ++k)
       {
-        // x0, y0 go along with what crosses the seam
+        // x0, y0 go along with what crosses the periodic boundary
         const double x = (scene.grains.position[0][k] - scene.grains.initial_position[0][k]) -
                          (before.position[0][k] - before.initial_position[0][k]),
                      y = (scene.grains.position[1][k] - scene.grains.initial_position[1][k]) -

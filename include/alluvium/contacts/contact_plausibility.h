@@ -23,7 +23,7 @@ namespace alluvium::contacts
    * the solver piles them up until the tolerance, which is relative to them, is met by anything. @p extra [m/s] is the
    * speed that walls and the opening of overlaps add.
    */
-  bool is_runaway(double largest, const MotionSums &before, double extra);
+  bool has_diverged(double largest, const MotionSums &before, double extra);
 
   /**
    * Whether impacts have made energy. Newton's restitution does where several meet in one sub-step: a disc that is hit

@@ -23,18 +23,19 @@ namespace alluvium::contacts
   {
     std::map<std::string, std::array<double, 2>> wall_force; // mean force on each wall, by name [N/m]
 
-    bool         hasty      = false; // grains moved, and haste made the tolerance larger; see ContactStepper::advance()
-    bool         at_rest    = false; // nothing was solved: loads and grains have not changed; see Rest
-    unsigned int n_quiet    = 0;     // steps without change up to now, this one included
-    unsigned int n_contacts = 0;     // that carried an impulse in the last sub-step
-    unsigned int n_substeps = 0;
-    unsigned int n_halvings = 0;      // sub-steps taken as two halves: no convergence, or grains moved too far
-    unsigned int n_loose    = 0;      // solves that ended at the loose tolerance
-    unsigned int n_stalled  = 0;      // sub-steps accepted above it, because more sweeps change nothing
-    unsigned int n_unconverged   = 0; // sub-steps accepted above the tolerance, because halving did not help
-    unsigned int n_corrections   = 0; // of moments; see MomentCorrection
-    unsigned long long n_sweeps  = 0;
-    unsigned long long n_updates = 0; // contacts relaxed, over all sweeps
+    bool was_loosened =
+      false; // grains moved, and tolerance_factor made the tolerance larger; see ContactStepper::advance()
+    bool               at_rest       = false; // nothing was solved: loads and grains have not changed; see Rest
+    unsigned int       n_quiet       = 0;     // steps without change up to now, this one included
+    unsigned int       n_contacts    = 0;     // that carried an impulse in the last sub-step
+    unsigned int       n_substeps    = 0;
+    unsigned int       n_halvings    = 0; // sub-steps taken as two halves: no convergence, or grains moved too far
+    unsigned int       n_loose       = 0; // solves that ended at the loose tolerance
+    unsigned int       n_stalled     = 0; // sub-steps accepted above it, because more sweeps change nothing
+    unsigned int       n_unconverged = 0; // sub-steps accepted above the tolerance, because halving did not help
+    unsigned int       n_corrections = 0; // of moments; see MomentCorrection
+    unsigned long long n_sweeps      = 0;
+    unsigned long long n_updates     = 0; // contacts relaxed, over all sweeps
 
     double residual = 0., violation = 0.; // the largest of all sub-steps; see ContactTolerance
     /** The smooth velocity left at rest, over g dt, the largest of all sub-steps, or what it is below where all that

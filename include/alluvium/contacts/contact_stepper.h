@@ -33,7 +33,7 @@ namespace alluvium::contacts
    *   m_e = m + h G        v_free = (m v + h f) / m_e        v = v_free + P / m_e        x += h v
    *
    * where the contact impulses P obey v_n + gap / h >= 0, Coulomb friction and Newton's restitution at the velocity
-   * level. A grain's spin answers to its true inertia m r^2 / 2. A grain of infinite mass keeps its velocity.
+   * level. A grain spins with its true inertia m r^2 / 2. A grain of infinite mass keeps its velocity.
    *
    * With `Contact model = soft-sphere`, SoftSpheres does all this instead.
    *
@@ -79,14 +79,14 @@ namespace alluvium::contacts
     /**
      * Advance positions, velocities and spins of @p grains by @p dt [s] under @p loads and contacts, and set their mean
      * contact force. @p gravity [m/s^2] only sets scales (it is part of the loads); without it the largest velocity
-     * does. Where grains move, the tolerances are @p haste times as large: for what will be taken back. Throws
-     * a Divergence if a position or a velocity is not finite.
+     * does. Where grains move, the tolerances are @p tolerance_factor times as large: for what will be taken back.
+     * Throws a Divergence if a position or a velocity is not finite.
      */
     ContactReport advance(grains::GrainArrays      &grains,
                           const grains::GrainLoads &loads,
                           double                    dt,
                           std::array<double, 2>     gravity,
-                          double                    haste = 1.);
+                          double                    tolerance_factor = 1.);
 
     /** Whether each grain had a contact impulse in the last advance(); n() entries of 0 or 1. */
     const std::vector<std::uint8_t> &touched() const;

@@ -27,10 +27,10 @@ namespace alluvium::contacts
     {
       ContactScales        scales;
       ContactMaterials     materials;
-      const ContactSolver *solver   = nullptr;
-      const Cohesion      *cohesion = nullptr; // none
-      double               base_h   = 0.;      // length of an unhalved sub-step [s]
-      double               haste    = 1.;      // where grains move, tolerances are this much larger
+      const ContactSolver *solver           = nullptr;
+      const Cohesion      *cohesion         = nullptr; // none
+      double               base_h           = 0.;      // length of an unhalved sub-step [s]
+      double               tolerance_factor = 1.;      // where grains move, tolerances are this much larger
     };
 
     ContactSubstep(const ContactSettings &settings, ContactWork &work)

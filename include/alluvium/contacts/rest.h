@@ -13,7 +13,7 @@ namespace alluvium::contacts
   /**
    * Knows when a bed is at rest: over some steps the load of every grain has stayed the same, and none has
    * moved by more than a constant acceleration of 4e-4 g would have moved it. What motion there is then is the
-   * contact solver's tolerance. While the loads stay what they are, nothing needs to be solved: the grains stand still,
+   * contact solver's tolerance. While the loads stay what they are, nothing needs to be solved: the grains sleep,
    * exactly, and their contact forces are what their loads ask for. The first change ends the rest.
    */
   class Rest
@@ -31,13 +31,13 @@ namespace alluvium::contacts
     /** Steps without change before the grains are taken to rest; 0: they never are. */
     unsigned int steps = 10;
 
-    /** Of the box: a grain that crosses its seam has not moved by its length. */
+    /** Of the box: a grain that crosses its periodic boundary has not moved by its length. */
     grains::Periodicity periodicity;
 
     /** Whether @p grains may stay as they are under @p loads. */
     bool holds(const grains::GrainArrays &grains, const grains::GrainLoads &loads, const Scales &scales) const;
 
-    /** Let the grains stand still; the report and the contacts are those of the last step that was solved. */
+    /** Let the grains sleep; the report and the contacts are those of the last step that was solved. */
     ContactReport
     stand_still(const grains::GrainLoads &loads, grains::GrainArrays &grains, std::vector<std::uint8_t> &touched) const;
 

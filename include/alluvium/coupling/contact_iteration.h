@@ -31,7 +31,7 @@ namespace alluvium::coupling
     advance(grains::GrainArrays &grains, grains::GrainLoads &loads, double dt, const std::array<double, 2> &gravity);
 
     /** How often the last step was repeated. */
-    unsigned int n_repetitions() const { return n; }
+    unsigned int n_iterations() const { return n; }
     /** Whether it ended within the time scheme's tolerance; true where that has none. */
     bool agrees() const { return agree; }
 
@@ -41,14 +41,14 @@ namespace alluvium::coupling
     {
       contacts::ContactReport report;
       GrainMotion             motion;
-      std::vector<double>     unseen; // Coupling::unseen_force()
+      std::vector<double>     defect; // Coupling::momentum_defect()
     };
 
     Attempt move(grains::GrainArrays         &grains,
                  const grains::GrainLoads    &loads,
                  double                       dt,
                  const std::array<double, 2> &gravity,
-                 double                       haste);
+                 double                       tolerance_factor);
     bool    agrees(const grains::GrainArrays &grains, const Attempt &attempt, double tolerance) const;
 
     Coupling                 &coupling;

@@ -60,7 +60,7 @@ namespace alluvium::coupling
     PieceDrag drag;
 
   private:
-    void        look_at(const fluid::BlockVector &field, CouplingState &state) const;
+    void        sample_fields(const fluid::BlockVector &field, CouplingState &state) const;
     SolveCounts latest_counts() const;
 
     const fluid::FluidSpace<dim> *space;

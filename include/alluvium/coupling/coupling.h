@@ -18,12 +18,12 @@ namespace alluvium::coupling
     double                force_outside_range = 0.;    // of that, on those outside the range of the drag law [N/m]
     // with their moments about the origin, where rotation is coupled; the second only from audit() [N]
     double                torque_on_grains = 0., torque_on_fluid = 0.;
-    std::array<double, 2> unseen_force = {{0., 0.}}; // sum of Coupling::unseen_force() [N/m]
-    std::size_t           n_pieces     = 0;
-    unsigned int          n_iterations = 0;     // linear, over all solves, and of rebalance() before the step
-    bool                  steady       = false; // nothing had changed: all is that of the step before
-    unsigned int          n_loose      = 0;     // solves that stopped above the tolerance
-    unsigned int          n_direct     = 0;     // solves by the direct solver, after all else had failed
+    std::array<double, 2> momentum_defect = {{0., 0.}}; // sum of Coupling::momentum_defect() [N/m]
+    std::size_t           n_pieces        = 0;
+    unsigned int          n_iterations    = 0; // linear, over all solves, and of reinitialise_flow() before the step
+    bool                  steady          = false; // nothing had changed: all is that of the step before
+    unsigned int          n_loose         = 0;     // solves that stopped above the tolerance
+    unsigned int          n_direct        = 0;     // solves by the direct solver, after all else had failed
   };
 
   /**
@@ -92,15 +92,15 @@ namespace alluvium::coupling
      * equation of this mesh; the pressure stays as it was carried over. Nothing is done there if only a small @p share
      * of the domain's area has other cells than before. Returns whether a flow was found. Collective.
      */
-    bool rebalance(const fluid::BoundaryConditions<dim> &boundary_conditions,
-                   const grains::GrainArrays            &grains,
-                   double                                dt,
-                   const fluid::BlockVector             &before,
-                   double                                share);
+    bool reinitialise_flow(const fluid::BoundaryConditions<dim> &boundary_conditions,
+                           const grains::GrainArrays            &grains,
+                           double                                dt,
+                           const fluid::BlockVector             &before,
+                           double                                share);
 
-    TimeScheme::Repetition repetition() const { return scheme_choice.get().repetition(); }
-    const std::string     &scheme_name() const { return scheme_choice.name(); }
-    bool                   keeps_grain_velocity() const { return scheme_choice.get().keeps_grain_velocity(); }
+    TimeScheme::IterationLimit iteration_limit() const { return scheme_choice.get().iteration_limit(); }
+    const std::string         &scheme_name() const { return scheme_choice.name(); }
+    bool                       keeps_grain_velocity() const { return scheme_choice.get().keeps_grain_velocity(); }
 
     /**
      * Solve the latest step's fluid again with what the grains made of its loads, @p corrected, and what the fluid was
@@ -113,19 +113,19 @@ namespace alluvium::coupling
                 grains::GrainLoads        &loads);
 
     /**
-     * Per grain, what it got from the fluid in the latest step less what the fluid gave it, x and y one after the
-     * other [N/m]. Where drag is implicit that is G (v* - v), because the grain took another velocity than the fluid
-     * saw. @p before are the grains' velocities at the beginning of the step [m/s], @p motion is what the loads
-     * made of them.
+     * Per grain, what it got from the fluid in the latest step less what the fluid gave it: the momentum defect between
+     * the phases, as a force, x and y one after the other [N/m]. Where drag is implicit that is G (v* - v), because the
+     * grain took another velocity than the fluid saw. @p before are the grains' velocities at the beginning of the step
+     * [m/s], @p motion is what the loads made of them.
      */
-    std::vector<double> unseen_force(const grains::GrainArrays &grains,
-                                     const grains::Components  &before,
-                                     const GrainMotion         &motion,
-                                     const grains::GrainLoads  &loads) const;
-    /** The mean reduced weight of a grain, or the mean force of the fluid on one, whichever is larger [N/m]. */
+    std::vector<double> momentum_defect(const grains::GrainArrays &grains,
+                                        const grains::Components  &before,
+                                        const GrainMotion         &motion,
+                                        const grains::GrainLoads  &loads) const;
+    /** The mean submerged weight of a grain, or the mean force of the fluid on one, whichever is larger [N/m]. */
     double typical_force(const grains::GrainArrays &grains) const;
-    /** Put the sum of unseen_force() into the report. */
-    void set_unseen_force(const std::vector<double> &of_grains);
+    /** Put the sum of momentum_defect() into the report. */
+    void set_momentum_defect(const std::vector<double> &of_grains);
 
     /** Complete the report with the sums that cost an assembly. */
     void audit();
@@ -186,7 +186,7 @@ namespace alluvium::coupling
     DragRangeRecord outside_range;
 
     CouplingReport     last, of_void_fraction;
-    SolveCounts        of_rebalance; // for the report of the step that follows
+    SolveCounts        of_reinitialisation; // for the report of the step that follows
     Inputs             last_inputs;
     grains::GrainLoads last_loads;
     bool               is_steady = false; // the last step left the fluid as it was

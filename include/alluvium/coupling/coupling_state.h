@@ -8,8 +8,8 @@
 namespace alluvium::coupling
 {
   /**
-   * What a coupled step knows of pieces and of the scene: it outlives the call that has found it, for the step may be
-   * repeated. Per-piece arrays follow the overlap map.
+   * What a coupled step knows of pieces (intersections of grains and cells) and of the scene: it outlives the call that
+   * has found it, for the step may be repeated. Per-piece arrays follow the overlap map.
    */
   struct PieceState
   {
@@ -30,7 +30,7 @@ namespace alluvium::coupling
     std::vector<std::array<double, 2>> acceleration;
 
     /** Weight less buoyancy [N/m]: gravity acts on the grain, the hydrostatic part of the pressure is not in p. */
-    std::array<double, 2> reduced_weight(const grains::GrainArrays &grains, const std::size_t g) const;
+    std::array<double, 2> submerged_weight(const grains::GrainArrays &grains, const std::size_t g) const;
   };
 
 
@@ -66,7 +66,10 @@ namespace alluvium::coupling
     std::array<double, 2> spin_velocity(const std::size_t k) const;
 
     double                volume(const std::size_t g) const { return grains::disc_volume(grains.fluid_radius[g]); }
-    std::array<double, 2> reduced_weight(const std::size_t g) const { return PieceState::reduced_weight(grains, g); }
-    std::size_t           n_pieces() const { return map.grain().size(); }
+    std::array<double, 2> submerged_weight(const std::size_t g) const
+    {
+      return PieceState::submerged_weight(grains, g);
+    }
+    std::size_t n_pieces() const { return map.grain().size(); }
   };
 } // namespace alluvium::coupling

@@ -46,7 +46,7 @@ namespace alluvium::coupling
              PieceList                       &pieces);
 
     /** Does some rank cut rectangles cell by cell, since their sides lie on too many lines for their number? */
-    bool is_too_uneven() const { return too_uneven; }
+    bool is_non_tensor() const { return non_tensor; }
 
   private:
     /** Along the lines of a mesh of rectangles. */
@@ -72,7 +72,7 @@ namespace alluvium::coupling
     const fluid::FluidSpace<dim>          *space;
     std::vector<geometry::PreparedPolygon> polygons;
     geometry::RectangleGrid                grid; // of the same; empty where they are no rectangles
-    bool                                   too_uneven = false;
+    bool                                   non_tensor = false;
     std::array<std::vector<double>, dim>   mirrors;       // straight_sides() of the domain
     BoundaryMirrors                        other_mirrors; // its other sides
   };

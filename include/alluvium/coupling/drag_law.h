@@ -6,7 +6,7 @@
 
 namespace alluvium::coupling
 {
-  /** What a drag law may know at one piece of a grain. */
+  /** What a drag law may know at one piece of a grain, its intersection with a cell. */
   struct DragState
   {
     double eps;       // void fraction
@@ -50,6 +50,6 @@ namespace alluvium::coupling
   };
 } // namespace alluvium::coupling
 
-/** Register a drag law under the name that parameter files use; see doc/architecture.md. */
+/** Register a drag law under the name that parameter files use; see doc/developer/plug-ins.md. */
 #define ALLUVIUM_REGISTER_DRAG_LAW(Class, name, prose)                                                                 \
   ALLUVIUM_REGISTER(::alluvium::coupling::DragLaw, Class, name, prose)

@@ -10,7 +10,8 @@ namespace alluvium::coupling
   /** Replace @p values by their sums over all ranks, the same bits on all of them. Collective. */
   void sum_over_ranks(std::vector<double> &values, MPI_Comm communicator);
 
-  /** Sums over the pieces of each grain, a number of columns side by side, so that ranks add all of them at once. */
+  /** Sums over the pieces of each grain, its intersections with cells, a number of columns side by side, so that ranks
+   * add all of them at once. */
   class GrainSums
   {
   public:

@@ -6,9 +6,10 @@
 namespace alluvium::coupling
 {
   /**
-   * The grains cut by the fluid's cells (paper (9)-(11), figure 1). Every piece knows its grain, its area (rescaled so
-   * that a grain's pieces add up to its volume V = pi r_fluid^2, also where the filter's disc leaves the domain) and
-   * the means of the shape functions over it. Pieces are sorted by cell, and by grain within a cell.
+   * The grains cut by the fluid's cells (paper (9)-(11), figure 1). A piece is the intersection of a grain, or of its
+   * filter's disc, and a cell. It knows its grain, its area (rescaled so that a grain's pieces add up to its volume V =
+   * pi r_fluid^2, also where the filter's disc leaves the domain) and the means of the shape functions over it. Pieces
+   * are sorted by cell, and by grain within a cell.
    */
   class OverlapMap
   {
@@ -44,8 +45,8 @@ namespace alluvium::coupling
     const std::vector<PieceArm> &arms() const { return pieces.arm; }
     bool                         keeps_arms() const { return cut_with.keep_arms; }
 
-    /** As DiscCutter::is_too_uneven(). */
-    bool is_too_uneven() const { return cutter.is_too_uneven(); }
+    /** As DiscCutter::is_non_tensor(). */
+    bool is_non_tensor() const { return cutter.is_non_tensor(); }
 
     /** Of the ranks that share the cells. */
     MPI_Comm communicator() const { return space->communicator(); }

@@ -8,7 +8,8 @@
 
 namespace alluvium::coupling
 {
-  /** The drag of each piece, from the law and the regularisation that the user has chosen. */
+  /** The drag of each piece, the intersection of a grain and a cell, from the law and the regularisation that the user
+   * has chosen. */
   class PieceDrag
   {
   public:

@@ -4,7 +4,7 @@
 
 namespace alluvium::coupling
 {
-  /** Fluid velocity [m/s] and reduced pressure gradient [Pa/m] at one piece. */
+  /** Fluid velocity [m/s] and reduced pressure gradient [Pa/m] at one piece, the intersection of a grain and a cell. */
   struct PieceField
   {
     std::array<double, 2> u, grad_p;

@@ -4,7 +4,8 @@
 
 namespace alluvium::coupling
 {
-  /** Velocity of a piece as the fluid saw it in the latest solve [m/s], and the force density on it [N/m^3]. */
+  /** Velocity of a piece (intersection of a grain and a cell) as the fluid saw it in the latest solve [m/s], and the
+   * force density on it [N/m^3]. */
   struct PieceForce
   {
     std::array<double, 2> velocity, force;

@@ -7,7 +7,7 @@
 
 namespace alluvium::coupling
 {
-  /** Where a piece is in its grain, and how far it stretches. */
+  /** Where a piece, the intersection of a grain and a cell, is in its grain, and how far it stretches. */
   struct PieceArm
   {
     std::array<double, 2> arm;     // centroid minus the grain's centre [m]

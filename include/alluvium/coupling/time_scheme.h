@@ -7,8 +7,8 @@
 namespace alluvium::coupling
 {
   /**
-   * Interface of the coupling schemes: they say how a piece's velocity depends on the fluid during the step, solve by
-   * solve, and what acts on the grains afterwards.
+   * Interface of the coupling schemes: they say how the velocity of a piece (the intersection of a grain and a cell)
+   * depends on the fluid during the step, solve by solve, and what acts on the grains afterwards.
    */
   class TimeScheme
   {
@@ -24,22 +24,22 @@ namespace alluvium::coupling
     virtual bool keeps_grain_velocity() const { return false; }
 
     /** Solves of the fluid a step; from the second on only the known terms change, the matrix stays. */
-    virtual unsigned int n_sweeps() const { return 1; }
+    virtual unsigned int n_sub_iterations() const { return 1; }
 
     /** How often fluid and contacts may be repeated with each other's result, and until when; see ContactIteration. */
-    struct Repetition
+    struct IterationLimit
     {
       unsigned int largest_number = 0;
-      double       tolerance      = 0.; // of Coupling::unseen_force(), see the parameter
+      double       tolerance      = 0.; // of Coupling::momentum_defect(), see the parameter
     };
-    virtual Repetition repetition() const { return {}; }
+    virtual IterationLimit iteration_limit() const { return {}; }
 
     /**
-     * Fill the exchange terms of all pieces for @p sweep = 0, 1, ... Reference field 0 is none, 1 the velocity at t^n,
-     * 2 that of the latest solve. Collective.
+     * Fill the exchange terms of all pieces for @p sub_iteration = 0, 1, ... Reference field 0 is none, 1 the velocity
+     * at t^n, 2 that of the latest solve. Collective.
      */
     virtual void exchange_terms(const CouplingState                  &state,
-                                const unsigned int                    sweep,
+                                const unsigned int                    sub_iteration,
                                 std::vector<fluid::PieceExchange<2>> &exchange) const = 0;
 
     /** How many sums over the pieces of a grain loads() needs. */
@@ -50,7 +50,7 @@ namespace alluvium::coupling
 
     /**
      * Loads of the grains from @p force, what the fluid gave each grain [N/m], and from the columns of @p sums from
-     * @p first on: by default the reduced weight plus that force, drag explicit.
+     * @p first on: by default the submerged weight plus that force, drag explicit.
      */
     virtual void loads(const CouplingState                      &state,
                        const std::vector<std::array<double, 2>> &force,

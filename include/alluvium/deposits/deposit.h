@@ -16,7 +16,7 @@ namespace dealii
 namespace alluvium::deposits
 {
   /** One grain as a deposit makes it: SI, per unit depth. */
-  struct Seed
+  struct NewGrain
   {
     double x, y, radius, density;
     double vx = 0., vy = 0., omega = 0.;
@@ -38,15 +38,15 @@ namespace alluvium::deposits
   };
 
   /**
-   * Interface of the plug-ins that say where the grains are at t = 0. make() runs on one rank only; the result is sent
-   * to the others. It must be reproducible: the same parameters and seed give the same grains.
+   * Interface of the plug-ins that give the initial packing: where the grains are at t = 0. make() runs on one rank
+   * only; the result is sent to the others. It must be reproducible: the same parameters and seed give the same grains.
    */
   class Deposit
   {
   public:
     virtual ~Deposit() = default;
-    virtual void              add_parameters(dealii::ParameterHandler &) {}
-    virtual std::vector<Seed> make(const DepositContext &context) const = 0;
+    virtual void                  add_parameters(dealii::ParameterHandler &) {}
+    virtual std::vector<NewGrain> make(const DepositContext &context) const = 0;
 
     /** Does it put grains down on a floor? Then it is given a scene turned upright, and what it makes is turned back.
      */

@@ -23,9 +23,10 @@ namespace alluvium::deposits
   };
 
   /** The text of the parameters named 'Box'. */
-  constexpr const char *deposit_box_prose = "The rectangle to fill: xmin, ymin, xmax, ymax [m]. Empty: the bounding "
-                                            "box of the domain. Where it reaches from one "
-                                            "side of a periodic domain to the other, grains lie across the seam.";
+  constexpr const char *deposit_box_prose =
+    "The rectangle to fill: xmin, ymin, xmax, ymax [m]. Empty: the bounding "
+    "box of the domain. Where it reaches from one "
+    "side of a periodic domain to the other, grains lie across the periodic boundary.";
 
   /** The rectangle that @p text (four numbers, or empty for the domain of @p context) stands for. Throws UserError. */
   DepositBox parse_deposit_box(const std::string &text, const DepositContext &context);

@@ -15,13 +15,13 @@ namespace alluvium::deposits
     DepositCache(const std::string &folder, const std::string &recipe);
 
     /**
-     * Whether there is a bed of this recipe that is whole, number of grains and checksum; fills @p seeds. What is there
-     * and cannot be used (cut off, altered, a folder) is named in @p remark.
+     * Whether there is a bed of this recipe that is whole, number of grains and checksum; fills @p new_grains. What is
+     * there and cannot be used (cut off, altered, a folder) is named in @p remark.
      */
-    bool read(std::vector<Seed> &seeds, std::string &remark) const;
+    bool read(std::vector<NewGrain> &new_grains, std::string &remark) const;
 
-    /** Keep @p seeds; @p measured are further lines for whoever opens the file. Throws UserError. */
-    void write(const std::vector<Seed> &seeds, const std::string &measured) const;
+    /** Keep @p new_grains; @p measured are further lines for whoever opens the file. Throws UserError. */
+    void write(const std::vector<NewGrain> &new_grains, const std::string &measured) const;
 
     const std::string folder, recipe, file;
   };

@@ -34,10 +34,10 @@ namespace alluvium::deposits
     std::string in_digits() const;
 
     /**
-     * Which of @p seeds, that have been poured as if there were no walls, fit, and can have come to where they are from
-     * above: from where the sky is free above their surface; or, if that is nowhere, from anywhere at that height.
+     * Which of @p new_grains, that have been poured as if there were no walls, fit, and can have come to where they are
+     * from above: from where the sky is free above their surface; or, if that is nowhere, from anywhere at that height.
      */
-    std::vector<bool> reachable(const std::vector<Seed> &seeds) const;
+    std::vector<bool> reachable(const std::vector<NewGrain> &new_grains) const;
 
   private:
     DepositBox                             box;

@@ -36,7 +36,8 @@ namespace alluvium::deposits
    * nothing swings; a loose bed falls with a coarse tolerance first. The bed is at rest when in ten steps no more than
    * one grain in 10,000 moves by 1e-3 diameters, and the walls carry the weight within 1e-3; then contact forces are
    * forgotten, and it comes to rest once more. Sorts
-   * @p seeds into rows, which is the order that contacts like best. Throws UserError if the bed does not come to rest.
+   * @p new_grains into rows, which is the order that contacts like best. Throws UserError if the bed does not come to
+   * rest.
    */
-  SettledState bring_to_rest(const Settling &settling, std::vector<Seed> &seeds);
+  SettledState bring_to_rest(const Settling &settling, std::vector<NewGrain> &new_grains);
 } // namespace alluvium::deposits

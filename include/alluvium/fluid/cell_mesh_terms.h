@@ -10,7 +10,7 @@ namespace alluvium::fluid
 
   /** Add the terms known from the mesh: u^n/dt, body force, mass source. */
   template <int dim, int n>
-  void known_mesh(const CellState<dim, n> &state, LocalVector<dim, n> &b);
+  void add_mesh_right_hand_side(const CellState<dim, n> &state, LocalVector<dim, n> &b);
 
   /** Sums over the rows of each equation of the squares of its largest terms: grad p, and eps u.grad q. */
   template <int dim, int n>

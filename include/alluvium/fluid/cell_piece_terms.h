@@ -5,8 +5,8 @@
 namespace alluvium::fluid
 {
   /**
-   * The terms of the pieces: drag, the solid's share of the pressure gradient, its velocity in the continuity
-   * equation. On parallelograms their moments are added up first.
+   * The terms of the pieces (intersections of grains and the cell): drag, the solid's share of the pressure gradient,
+   * its velocity in the continuity equation. On parallelograms their moments are added up first.
    */
   template <int dim, int n>
   void add_pieces(const CellState<dim, n> &state, LocalMatrix<dim, n> &L);

@@ -11,8 +11,9 @@ namespace alluvium::fluid
   constexpr unsigned int max_nodes = 1 << dim;
 
   /**
-   * Where a piece of the solid sits in its cell: all that integrals of shape functions over it need. Gradients at its
-   * centroid follow from phi and the cell, see piece_gradients(): pieces are many, and what they cost is reading them.
+   * Where a piece of the solid, the intersection of a grain and a cell, sits in its cell: all that integrals of shape
+   * functions over it need. Gradients at its centroid follow from phi and the cell, see piece_gradients(): pieces are
+   * many, and what they cost is reading them.
    */
   template <int dim>
   struct PieceShape

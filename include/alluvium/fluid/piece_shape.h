@@ -6,7 +6,8 @@
 namespace alluvium::fluid
 {
   /**
-   * Means of the shape functions of @p cell, which has @p n_nodes (3 or 4), over a piece with this @p area [m^2] and
+   * Means of the shape functions of @p cell, which has @p n_nodes (3 or 4), over a piece, the intersection of a grain
+   * and the cell, with this @p area [m^2] and
    * @p centroid [m]: exact for linear functions, and on parallelograms for xi eta with the @p second_moments of the
    * piece about its centroid, xx, xy, yy [m^4]; with zeros they are the values at the centroid.
    */

@@ -29,7 +29,7 @@ namespace alluvium::fluid
     void
     assemble(const VansProblem<dim> &problem, const BlockVector &iterate, BlockVector &residual, BlockVector &known);
 
-    /** The pieces' known terms (a, e, u_ref): all that a change of lag changes. */
+    /** The pieces' known terms (a, e, u_ref): all that a change of the lagged field changes. */
     void known_interphase(const VansProblem<dim> &problem, BlockVector &known) const;
 
     /**

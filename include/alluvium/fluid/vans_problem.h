@@ -10,7 +10,7 @@ namespace alluvium::fluid
     double viscosity = 1e-3;  // dynamic [Pa s]
   };
 
-  /** Terms on boundaries with a given pressure (doc/open-boundaries.md); all are meant to be on. */
+  /** Terms on boundaries with a given pressure (doc/theory/open-boundaries.md); all are meant to be on. */
   struct OpenBoundaryTerms
   {
     bool traction   = true; // viscous traction eps eta du/dn alone, as in developed flow

@@ -24,7 +24,7 @@ namespace alluvium::geometry
 
     bool empty() const { return cells.empty(); }
     /** Empty because of too many gaps? */
-    bool too_uneven() const { return empty() && lines[0].size() > 1; }
+    bool is_non_tensor() const { return empty() && lines[0].size() > 1; }
 
     /** Its sides lie on lines [direction][first, last]. */
     struct Cell

@@ -17,7 +17,7 @@ namespace alluvium::mesh
   };
 
   /**
-   * Deal out @p cells to @p n_parts parts, by cutting them in two along x or y, again and again: always where the
+   * Partition @p cells into @p n_parts by recursive coordinate bisection, along x or y: always where the
    * larger share of the cells and the larger share of the grains near them, which may be the other half's, together
    * cost least. Ranks wait for one another between cutting grains and solving, so both are to be even, not their sum;
    * of two cuts about as good, the one across the longer side is taken. Returns the part of each cell; no part is empty
@@ -25,6 +25,7 @@ namespace alluvium::mesh
    */
   std::vector<dealii::types::subdomain_id> bisect(const std::vector<CellToDeal> &cells, unsigned int n_parts);
 
-  /** Deal out the active cells of @p triangulation, and the grains that @p weights counts near them, to all ranks. */
+  /** Partition the active cells of @p triangulation, and the grains that @p weights counts near them, over all ranks.
+   */
   void partition_by_bisection(dealii::parallel::shared::Triangulation<2> &triangulation, const CellWeights &weights);
 } // namespace alluvium::mesh

@@ -69,9 +69,10 @@ namespace alluvium::mesh
     /**
      * The unrefined mesh, distributed over all ranks. A rectangle has cells as square as possible with sides of at most
      * @p cell_size [m] (a hair more where rounding makes them square). Cells of a file are as they are. What may be
-     * refined is a parallel::distributed::Triangulation, dealt out along p4est's curve. Triangles, and a rectangle that
-     * @p never_refines and does not repeat itself, are a parallel::shared::Triangulation with artificial cells, dealt
-     * out by partition_by_bisection() with @p weights, or to @p owners, if there is one for each cell.
+     * refined is a parallel::distributed::Triangulation, partitioned along p4est's space-filling curve. Triangles, and
+     * a rectangle that
+     * @p never_refines and is not periodic, are a parallel::shared::Triangulation with artificial cells,
+     * partitioned by partition_by_bisection() with @p weights, or to @p owners, if there is one for each cell.
      */
     std::unique_ptr<dealii::Triangulation<dim, dim>>
     make_triangulation(double                                          cell_size,

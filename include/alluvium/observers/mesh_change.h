@@ -9,8 +9,8 @@ namespace alluvium::observers
   {
     double               time           = 0.; // [s]
     unsigned long long   n_cells_before = 0, n_cells = 0;
-    double               share      = 0.; // of the domain's area, where cells were refined or joined
-    bool                 rebalanced = false;
+    double               share         = 0.; // of the domain's area, where cells were refined or joined
+    bool                 reinitialised = false;
     coupling::FlowTotals before, interpolated, after;
   };
 } // namespace alluvium::observers

@@ -20,11 +20,12 @@ namespace alluvium::refinement
     /**
      * No wish anywhere in @p domain. Buckets have sides of @p spacing [m] or a little less, so that whole ones fill the
      * domain and a mirrored domain has mirrored buckets; or more if they would be over four million. The sizes spread
-     * over the seam of a @p periodic direction.
+     * across the boundaries of a @p periodic direction.
      */
     void reinit(const mesh::Box &domain, const std::array<bool, 2> &periodic, const double spacing);
 
-    /** Want at most @p size [m] in @p box; what is outside the domain is left out, or comes in over a seam. */
+    /** Want at most @p size [m] in @p box; what is outside the domain is left out, or comes in across a periodic
+     * boundary. */
     void stamp(const mesh::Box &box, const double size);
 
     /** Take the smallest wish of all ranks, and let it grow by @p growth per length. Collective. */

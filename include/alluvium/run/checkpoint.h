@@ -35,7 +35,7 @@ namespace alluvium::run
     /** Write @p model and @p output to @p folder; neither changes. */
     static void write(const std::string &folder, Model &model, const Output &output);
 
-    /** The same, with what @p save_output puts into the state, on the rank that speaks, in the place of an output's. */
+    /** The same, with what @p save_output puts into the state, on the first rank, in the place of an output's. */
     static void
     write(const std::string &folder, Model &model, const std::function<void(nlohmann::ordered_json &)> &save_output);
 

@@ -18,7 +18,7 @@ namespace alluvium::run
   class GoodState
   {
   public:
-    /** Keep the present state of @p model, and what @p save adds for a checkpoint on the rank that speaks. Collective.
+    /** Keep the present state of @p model, and what @p save adds for a checkpoint on the first rank. Collective.
      */
     void keep(const Model &model, const std::function<void(nlohmann::ordered_json &)> &save);
 

@@ -24,8 +24,8 @@ namespace alluvium::run
   void count_cell_weights(Model &model);
 
   /**
-   * Adapt the mesh to the grains and fields as they are, carry the fields over, and, once the run has begun, rebalance
-   * them. True if the mesh has changed. Collective.
+   * Adapt the mesh to the grains and fields as they are, carry the fields over, and, once the run has begun,
+   * re-initialise them. True if the mesh has changed. Collective.
    */
   bool adapt_mesh(Model &model);
 } // namespace alluvium::run

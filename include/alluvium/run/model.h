@@ -46,7 +46,7 @@ namespace alluvium::run
     geometry::Upright upright() const { return geometry::Upright::of(gravity); }
 
     const MPI_Comm communicator;
-    const bool     speaks; // this rank writes what the user reads
+    const bool     is_root; // this rank writes what the user reads
 
     // parameters
     double                time_step = 1e-3; // [s]

@@ -65,7 +65,7 @@ namespace alluvium::run
     /** Between two checkpoints [s]; 0: there are none before the end. */
     double interval_of_checkpoints() const { return interval; }
 
-    /** Let @p save put what it remembers into each checkpoint, on the rank that speaks. */
+    /** Let @p save put what it remembers into each checkpoint, on the first rank. */
     void also_save(const std::function<void(nlohmann::ordered_json &)> &save) { save_more = save; }
 
     /** How the last step went, for the progress. */

@@ -9,7 +9,7 @@ namespace alluvium::run
   class TimeStepControl;
 
   /**
-   * What the scene is, room by room, what it leaves out, and what to expect of it; the rank that speaks writes it to
+   * What the scene is, room by room, what it leaves out, and what to expect of it; the first rank writes it to
    * @p out. @p end_time of the run [s]. Collective.
    */
   void report_scene(

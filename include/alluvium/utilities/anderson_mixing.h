@@ -5,7 +5,7 @@
 namespace alluvium
 {
   /**
-   * Weights for combining the answers of a fixed-point iteration: with residuals r_i, those w_i of sum 1 that make
+   * Weights for combining the iterates of a fixed-point iteration: with residuals r_i, those w_i of sum 1 that make
    * |sum w_i r_i| smallest. (D. G. Anderson, J. ACM 12 (1965) 547.) Residuals so alike that they say nothing new are
    * left out.
    */
@@ -16,10 +16,10 @@ namespace alluvium
       : depth(depth)
     {}
 
-    /** Add the residual of the latest answer, and drop the oldest beyond the depth. */
+    /** Add the residual of the latest iterate, and drop the oldest beyond the depth. */
     void add(std::vector<double> residual);
 
-    /** How many answers weights() is for, the oldest first. */
+    /** How many iterates weights() is for, the oldest first. */
     unsigned int n() const { return residuals.size(); }
 
     std::vector<double> weights() const;

@@ -7,13 +7,13 @@ namespace alluvium
 {
   /**
    * What a run warns of: each text once, with how often it was found and the first time. All ranks may call everything;
-   * one of them speaks.
+   * the first one prints them.
    */
   class Warnings
   {
   public:
-    explicit Warnings(const bool speaks)
-      : speaks(speaks)
+    explicit Warnings(const bool is_root)
+      : is_root(is_root)
     {}
 
     struct Warning
@@ -36,7 +36,7 @@ namespace alluvium
     static std::string in_words(const Warning &warning);
 
   private:
-    const bool           speaks;
+    const bool           is_root;
     std::vector<Warning> list;
   };
 } // namespace alluvium

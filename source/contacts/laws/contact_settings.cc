@@ -63,19 +63,23 @@ namespace alluvium::contacts
       "root mean square, over g dt [-]. The residual does not see it: floor and sides of a bed that "
       "moves with 1e-3 g dt carry its weight within about 1e-3.",
       Double(0.));
-    prm.add_parameter("Patience",
-                      patience,
+    prm.add_parameter("Stagnation after sweeps",
+                      stagnation_sweeps,
                       "After this many sweeps (ten times as many where the grains are not on the move) the tolerances "
                       "grow with the fourth power of the number of sweeps: where grains slide, a tight tolerance may "
                       "be out of reach, and there it matters less.",
                       Integer(1));
+    prm.declare_alias("Stagnation after sweeps", "Patience");
     prm.add_parameter("Moving speed",
                       moving_speed,
                       "The grains are on the move if their root mean square speed is above this times g dt [-]. Where "
                       "they are not, a looser tolerance would let a loaded bed creep.",
                       Double(0.));
-    prm.add_parameter(
-      "Loose factor", loose, "The most by which the tolerances grow [-]. 1: they never do.", Double(1.));
+    prm.add_parameter("Stagnation tolerance factor",
+                      stagnation_factor,
+                      "The most by which the tolerances grow then [-]. 1: they never do.",
+                      Double(1.));
+    prm.declare_alias("Stagnation tolerance factor", "Loose factor");
     prm.add_parameter(
       "Largest number of sweeps",
       max_sweeps,
@@ -103,14 +107,15 @@ namespace alluvium::contacts
     prm.add_parameter(
       "Overlap correction",
       correction,
-      "The part of an overlap that is opened in one sub-step [-]. Small values are gentle; an overlap is an error of "
-      "the solver or of the initial state, and opening it costs spurious velocity.",
+      "The part of an overlap that is opened in one sub-step [-], the error-reduction parameter. An overlap is an "
+      "error of the solver or of the initial state, and opening it costs spurious velocity: small values cost less.",
       Double(0., 1.));
     prm.add_parameter(
-      "Push-out speed",
-      push_out,
+      "Largest depenetration speed",
+      depenetration_speed,
       "Overlaps that are there from the start open at most at this times sqrt(g d) [-], so that they do not explode.",
       Double(0.));
+    prm.declare_alias("Largest depenetration speed", "Push-out speed");
     prm.add_parameter(
       "Cold start",
       cold_start,
@@ -120,7 +125,7 @@ namespace alluvium::contacts
                       rest_steps,
                       "When over this many steps no load has changed by more than 1e-3 of a grain's weight and no "
                       "grain has moved by more than an acceleration of 4e-4 g would have moved it, the grains "
-                      "stand still, and contacts are solved no more until something changes. 0: always solve.",
+                      "sleep, and contacts are solved no more until something changes. 0: always solve.",
                       Integer(0));
     prm.add_parameter(
       "Search skin",

@@ -106,40 +106,40 @@ namespace alluvium::contacts
     ContactPartition        result;
     const std::size_t       n = owner.size();
 
-    // Borders, in indices of all grains first
-    std::map<unsigned int, ContactBorder> borders;
-    std::vector<std::uint8_t>             at_border(n, 0);
+    // Halos, in indices of all grains first
+    std::map<unsigned int, ContactHalo> halos;
+    std::vector<std::uint8_t>           in_halo(n, 0);
     for (const ContactPair &p : all.discs)
       if (owner[p.i] != owner[p.j] && (owner[p.i] == rank || owner[p.j] == rank))
         {
-          const bool     i_mine = owner[p.i] == rank;
-          ContactBorder &border = borders[owner[i_mine ? p.j : p.i]];
-          border.send.push_back(i_mine ? p.i : p.j);
-          border.receive.push_back(i_mine ? p.j : p.i);
-          at_border[p.i] = at_border[p.j] = 1;
+          const bool   i_mine = owner[p.i] == rank;
+          ContactHalo &halo   = halos[owner[i_mine ? p.j : p.i]];
+          halo.send.push_back(i_mine ? p.i : p.j);
+          halo.receive.push_back(i_mine ? p.j : p.i);
+          in_halo[p.i] = in_halo[p.j] = 1;
         }
     std::vector<const ContactPair *> pairs_there;
     for (const ContactPair &p : all.discs)
-      if (at_border[p.i] || at_border[p.j])
+      if (in_halo[p.i] || in_halo[p.j])
         pairs_there.push_back(&p);
-    std::vector<std::uint8_t> listed(n, 0); // by each border in turn: 1 to be sent, 2 to be received
-    for (auto &[other, border] : borders)
+    std::vector<std::uint8_t> listed(n, 0); // by each halo in turn: 1 to be sent, 2 to be received
+    for (auto &[other, halo] : halos)
       {
-        border.rank = other;
-        sort_out(border.send);
-        sort_out(border.receive);
-        border.colour_send.resize(n_colours);
-        border.colour_receive.resize(n_colours);
-        for (const std::uint32_t k : border.send)
+        halo.rank = other;
+        sort_out(halo.send);
+        sort_out(halo.receive);
+        halo.colour_send.resize(n_colours);
+        halo.colour_receive.resize(n_colours);
+        for (const std::uint32_t k : halo.send)
           listed[k] = 1;
-        for (const std::uint32_t k : border.receive)
+        for (const std::uint32_t k : halo.receive)
           listed[k] = 2;
         const auto add = [&,
                           other = other](const std::uint32_t k, const unsigned int partner, const unsigned int colour) {
           if (listed[k] == 1 && partner != other)
-            border.colour_send[colour].push_back(k);
+            halo.colour_send[colour].push_back(k);
           else if (listed[k] == 2 && partner != rank)
-            border.colour_receive[colour].push_back(k);
+            halo.colour_receive[colour].push_back(k);
         };
         for (const ContactPair *const p : pairs_there)
           {
@@ -150,10 +150,10 @@ namespace alluvium::contacts
           add(p.i, none, p.colour);
         for (unsigned int c = 0; c < n_colours; ++c)
           {
-            sort_out(border.colour_send[c]);
-            sort_out(border.colour_receive[c]);
+            sort_out(halo.colour_send[c]);
+            sort_out(halo.colour_receive[c]);
           }
-        for (const auto *list : {&border.send, &border.receive})
+        for (const auto *list : {&halo.send, &halo.receive})
           for (const std::uint32_t k : *list)
             listed[k] = 0;
       }
@@ -163,8 +163,8 @@ namespace alluvium::contacts
       if (owner[k] == rank)
         result.grains.push_back(k);
     result.n_owned = result.grains.size();
-    for (const auto &[other, border] : borders)
-      result.grains.insert(result.grains.end(), border.receive.begin(), border.receive.end());
+    for (const auto &[other, halo] : halos)
+      result.grains.insert(result.grains.end(), halo.receive.begin(), halo.receive.end());
     std::sort(result.grains.begin() + result.n_owned, result.grains.end());
     std::vector<std::uint32_t> local(n, none);
     for (std::size_t k = 0; k < result.grains.size(); ++k)
@@ -187,16 +187,16 @@ namespace alluvium::contacts
       for (std::uint32_t &k : list)
         k = local[k];
     };
-    for (auto &[other, border] : borders)
+    for (auto &[other, halo] : halos)
       {
-        renumber(border.send);
-        renumber(border.receive);
+        renumber(halo.send);
+        renumber(halo.receive);
         for (unsigned int c = 0; c < n_colours; ++c)
           {
-            renumber(border.colour_send[c]);
-            renumber(border.colour_receive[c]);
+            renumber(halo.colour_send[c]);
+            renumber(halo.colour_receive[c]);
           }
-        result.borders.push_back(std::move(border));
+        result.halos.push_back(std::move(halo));
       }
     result.owner = std::move(owner);
     return result;

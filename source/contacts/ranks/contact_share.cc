@@ -53,7 +53,7 @@ namespace alluvium::contacts
     if (fits(all))
       for (std::size_t k = 0; k < was_owner.size(); ++k)
         n_migrated += partition.owner[k] == rank && was_owner[k] != rank;
-    ghosts.set_borders(std::move(partition.borders));
+    ghosts.set_halos(std::move(partition.halos));
     all_id              = all.id;
     const std::size_t n = partition.grains.size();
     grains.resize(n);

@@ -50,17 +50,17 @@ namespace alluvium::contacts
       MPI_Comm_free(&comm);
   }
 
-  void GhostExchange::set_borders(std::vector<ContactBorder> new_borders)
+  void GhostExchange::set_halos(std::vector<ContactHalo> new_halos)
   {
-    borders = std::move(new_borders);
+    halos = std::move(new_halos);
   }
 
-  /** Exchange @p width numbers of each disc in @p lists(border), a pair of lists to send and to receive. */
+  /** Exchange @p width numbers of each disc in @p lists(halo), a pair of lists to send and to receive. */
   template <class Lists, class Put, class Take>
   void GhostExchange::exchange(const unsigned int width, const Lists &lists, const Put &put, const Take &take)
   {
     std::size_t n_out = 0, n_in = 0;
-    for (const ContactBorder &b : borders)
+    for (const ContactHalo &b : halos)
       {
         n_out += lists(b).first.size();
         n_in += lists(b).second.size();
@@ -73,7 +73,7 @@ namespace alluvium::contacts
     {
       const Stopwatch stopwatch(sent.seconds);
       double         *to = in.data();
-      for (const ContactBorder &b : borders)
+      for (const ContactHalo &b : halos)
         if (const std::size_t n = width * lists(b).second.size(); n > 0)
           {
             requests.emplace_back();
@@ -82,7 +82,7 @@ namespace alluvium::contacts
           }
     }
     double *from = out.data();
-    for (const ContactBorder &b : borders)
+    for (const ContactHalo &b : halos)
       {
         double *const begin = from;
         for (const std::uint32_t k : lists(b).first)
@@ -103,7 +103,7 @@ namespace alluvium::contacts
       MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
     }
     const double *got = in.data();
-    for (const ContactBorder &b : borders)
+    for (const ContactHalo &b : halos)
       for (const std::uint32_t k : lists(b).second)
         {
           take(k, got);
@@ -115,7 +115,7 @@ namespace alluvium::contacts
   {
     exchange(
       3,
-      [&](const ContactBorder &b) {
+      [&](const ContactHalo &b) {
         return std::pair<const std::vector<std::uint32_t> &, const std::vector<std::uint32_t> &>(
           b.colour_send[colour], b.colour_receive[colour]);
       },
@@ -127,7 +127,7 @@ namespace alluvium::contacts
   {
     exchange(
       3,
-      [](const ContactBorder &b) {
+      [](const ContactHalo &b) {
         return std::pair<const std::vector<std::uint32_t> &, const std::vector<std::uint32_t> &>(b.send, b.receive);
       },
       [&](const std::uint32_t k, double *const to) { put_velocity(discs[k], to); },
@@ -138,7 +138,7 @@ namespace alluvium::contacts
   {
     exchange(
       columns.size(),
-      [](const ContactBorder &b) {
+      [](const ContactHalo &b) {
         return std::pair<const std::vector<std::uint32_t> &, const std::vector<std::uint32_t> &>(b.send, b.receive);
       },
       [&](const std::uint32_t k, double *const to) {

@@ -98,7 +98,7 @@ namespace alluvium::contacts
                              const ContactTolerance &tolerance)
   {
     const std::vector<Disc> free = problem.discs;
-    BlockBalance            blocks(problem, places);
+    CoarseCorrection        blocks(problem, places);
     const double            all = blocks.unbalanced(problem);
     guess(problem, places, weight);
 

@@ -159,7 +159,8 @@ namespace alluvium::contacts
       solution.smooth = problem.correction->estimate(problem, solution.sweeps).velocity / problem.velocity_scale;
     const auto change = measure.velocity_change();
     solution.stalled  = change && (*change)[0] <= little * std::max(problem.velocity_scale, (*change)[1]) &&
-                       solution.missing <= tolerance.missing && solution.smooth <= tolerance.loose * tolerance.smooth;
+                       solution.missing <= tolerance.missing &&
+                       solution.smooth <= tolerance.stagnation_factor * tolerance.smooth;
   }
 
   bool is_solved(ContactMeasure         &measure,

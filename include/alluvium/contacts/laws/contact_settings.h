@@ -25,16 +25,16 @@ namespace alluvium::contacts
     double       smooth_tolerance    = 1e-3; // of g h
     bool         moment_correction   = true;
     bool         halve_stalled       = false;
-    double       loose               = 100.; // both grow up to this factor ...
-    unsigned int patience            = 30;   // ... after so many sweeps, ten times as many unless grains move ...
+    double       stagnation_factor   = 100.; // both grow up to this factor ...
+    unsigned int stagnation_sweeps   = 30;   // ... after so many sweeps, ten times as many unless grains move ...
     double       moving_speed        = 0.1;  // ... faster than this, root mean square, times g dt
     unsigned int max_sweeps          = 3000;
     unsigned int max_halvings        = 4;
     double       max_move            = 0.25; // of the smallest diameter, in one sub-step
     double       dead_zone           = 5e-4; // times dt sqrt(g d)
     double       correction          = 0.2;  // part of an overlap that one (unhalved) sub-step opens
-    double       push_out            = 0.1;  // times sqrt(g d): and how fast at most
-    unsigned int rest_steps          = 10;   // without change before grains stand still; see Rest
+    double       depenetration_speed = 0.1;  // times sqrt(g d): and how fast at most
+    unsigned int rest_steps          = 10;   // without change before grains sleep; see Rest
     double       skin                = 0.15; // of the largest diameter
     unsigned int least_share         = 2000; // grains a rank, or every rank does all
 

@@ -8,9 +8,9 @@
 namespace alluvium::contacts
 {
   /**
-   * Deal points out to @p n_ranks ranks by recursive bisection: each cut is across the longer side of what it divides
-   * and leaves as much @p work on both sides, in proportion to their ranks, as the places allow. The same on every
-   * rank. Returns the owner of each.
+   * Partition points over @p n_ranks ranks by recursive coordinate bisection: each cut is across the longer side of
+   * what it divides and leaves as much @p work on both sides, in proportion to their ranks, as the places allow. The
+   * same on every rank. Returns the owner of each.
    */
   std::vector<unsigned int> bisect(const std::vector<double>        &x,
                                    const std::vector<double>        &y,
@@ -19,7 +19,7 @@ namespace alluvium::contacts
 
   /** What a rank sends to another one and receives from it, in indices of its own discs; the other has the same order.
    */
-  struct ContactBorder
+  struct ContactHalo
   {
     unsigned int                            rank;
     std::vector<std::uint32_t>              send, receive; // all that are ghosts there, and here
@@ -34,7 +34,7 @@ namespace alluvium::contacts
     std::vector<std::uint32_t> grains;      // those of this rank among all: its own, then ghosts, both in their order
     std::size_t                n_owned = 0; // grains that it owns
     ContactCandidates          pairs;       // with at least one grain of its own, in their order
-    std::vector<ContactBorder> borders;     // one for each rank that it shares pairs with
+    std::vector<ContactHalo>   halos;       // one for each rank that it shares pairs with
   };
 
   /** The part of @p rank, if grains belong to their @p owner; @p all pairs have one of @p n_colours colours. */

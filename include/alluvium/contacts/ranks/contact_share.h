@@ -32,7 +32,7 @@ namespace alluvium::contacts
     ContactTraffic traffic() const;
 
     /**
-     * Deal out @p all grains, which all ranks have, and the @p pairs between them, of @p n_colours colours, so that
+     * Partition @p all grains, which all ranks have, and the @p pairs between them, of @p n_colours colours, so that
      * every rank has about as many of them. Returns the pairs of this rank's grains.
      */
     ContactCandidates divide(const grains::GrainArrays &all,
@@ -40,7 +40,7 @@ namespace alluvium::contacts
                              const ContactCandidates   &pairs,
                              unsigned int               n_colours);
 
-    /** Whether it was @p all grains that were dealt out, wherever they are now. */
+    /** Whether it was @p all grains that were partitioned, wherever they are now. */
     bool fits(const grains::GrainArrays &all) const { return all.id == all_id; }
 
     /** Take what @p all grains and loads say of the own ones and the ghosts; nothing has touched them yet. */

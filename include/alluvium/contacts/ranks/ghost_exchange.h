@@ -29,7 +29,7 @@ namespace alluvium::contacts
     GhostExchange(const GhostExchange &)            = delete;
     GhostExchange &operator=(const GhostExchange &) = delete;
 
-    void set_borders(std::vector<ContactBorder> new_borders);
+    void set_halos(std::vector<ContactHalo> new_halos);
 
     void after_colour(std::vector<Disc> &discs, unsigned int colour) override;
     void update_ghosts(std::vector<Disc> &discs) override;
@@ -46,11 +46,11 @@ namespace alluvium::contacts
     ContactTraffic traffic() const { return sent; }
 
   private:
-    MPI_Comm                   comm = MPI_COMM_NULL;
-    std::vector<ContactBorder> borders;
-    std::vector<double>        out, in;
-    std::vector<MPI_Request>   requests;
-    ContactTraffic             sent;
+    MPI_Comm                 comm = MPI_COMM_NULL;
+    std::vector<ContactHalo> halos;
+    std::vector<double>      out, in;
+    std::vector<MPI_Request> requests;
+    ContactTraffic           sent;
 
     template <class Lists, class Put, class Take>
     void exchange(unsigned int width, const Lists &lists, const Put &put, const Take &take);

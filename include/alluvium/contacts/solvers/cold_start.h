@@ -1,6 +1,6 @@
 #pragma once
 
-#include <alluvium/contacts/solvers/block_balance.h>
+#include <alluvium/contacts/solvers/coarse_correction.h>
 #include <alluvium/contacts/solvers/contact_solver.h>
 
 #include <array>
@@ -21,8 +21,8 @@ namespace alluvium::contacts
    *
    *   rn = 0.6 W (1 + 0.4 (n_down^2 - n_across^2)),    W: weight above a disc's width,
    *
-   * and between a few cycles of sweeps, each longer than the one before, BlockBalance brings large parts of the bed to
-   * rest; unless they turn out to be falling. Then the solver goes on by itself. Collective.
+   * and between a few cycles of sweeps, each longer than the one before, CoarseCorrection brings large parts of the bed
+   * to rest; unless they turn out to be falling. Then the solver goes on by itself. Collective.
    */
   ContactSolution solve_cold(ContactProblem         &problem,
                              const DiscPlaces       &places,

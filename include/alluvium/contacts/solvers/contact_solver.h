@@ -16,8 +16,8 @@ namespace alluvium::contacts
    * When a contact solution is good enough. Residual and violation are about the natural map: how far an impulse would
    * still move if its contact alone were solved once more, over the problem's impulse scale. So they bound with which
    * speed discs that touch move on one another where they should not, over g dt, however much they carry. Where that
-   * takes more than `patience` sweeps (grains slide, and friction is no minimisation), less and less is asked: with the
-   * fourth power of the sweeps, up to the factor `loose`.
+   * takes more than `stagnation_sweeps` sweeps (grains slide, and friction is no minimisation), less and less is asked:
+   * with the fourth power of the sweeps, up to `stagnation_factor`.
    *
    * In a bed at rest (one with a MomentCorrection) the smooth part of the velocities, to which the residual is blind,
    * must be small too.
@@ -28,19 +28,19 @@ namespace alluvium::contacts
    */
   struct ContactTolerance
   {
-    double       residual   = 4e-5; // root mean square over the contacts
-    double       violation  = 1e-2; // maximum over the contacts
-    double       loose      = 100.;
-    unsigned int patience   = 30;
-    bool         at_rest    = false; // nothing is thought to move, as in a cold start
-    unsigned int max_sweeps = 2000;  // then the solver gives up, and the caller takes a smaller sub-step
-    double       missing    = 1e-2;  // impulse of the heaviest disc; in no case less is asked
-    double       smooth     = 1e-3;  // velocity, over g dt
+    double       residual          = 4e-5; // root mean square over the contacts
+    double       violation         = 1e-2; // maximum over the contacts
+    double       stagnation_factor = 100.;
+    unsigned int stagnation_sweeps = 30;
+    bool         at_rest           = false; // nothing is thought to move, as in a cold start
+    unsigned int max_sweeps        = 2000;  // then the solver gives up, and the caller takes a smaller sub-step
+    double       missing           = 1e-2;  // impulse of the heaviest disc; in no case less is asked
+    double       smooth            = 1e-3;  // velocity, over g dt
 
     double allowance(const unsigned int sweeps) const
     {
-      const double over = static_cast<double>(sweeps) / patience;
-      return std::clamp(over * over * over * over, 1., std::max(1., loose));
+      const double over = static_cast<double>(sweeps) / stagnation_sweeps;
+      return std::clamp(over * over * over * over, 1., std::max(1., stagnation_factor));
     }
   };
 

@@ -16,11 +16,11 @@ namespace alluvium::contacts
    * least-squares problem with a little preference for small c. Impulses that are scaled stay positive and within their
    * friction cones, which is why nothing is lost when the sweeps go on.
    */
-  class BlockBalance
+  class CoarseCorrection
   {
   public:
     /** Blocks of a tenth of the bed, at least eight diameters. Collective. */
-    BlockBalance(const ContactProblem &problem, const DiscPlaces &places);
+    CoarseCorrection(const ContactProblem &problem, const DiscPlaces &places);
 
     /** Root of the area of the bed's bounding box, in mean diameters. */
     double bed_size() const { return extent; }

@@ -1,4 +1,4 @@
-#include <alluvium/contacts/solvers/block_balance.h>
+#include <alluvium/contacts/solvers/coarse_correction.h>
 #include <alluvium/utilities/reproducible_sum.h>
 
 #include <algorithm>
@@ -9,12 +9,12 @@ namespace alluvium::contacts
   namespace
   {
     constexpr double preference = 1e-2; // for small changes, relative to the diagonal
-    constexpr double accuracy   = 1e-2; // of the coarse problem: its answer is rough anyway
+    constexpr double accuracy   = 1e-2; // of the coarse problem: its solution is rough anyway
     constexpr int    max_steps  = 200;
     constexpr double smallest = 0.2, largest = 5.; // factors
   }                                                // namespace
 
-  BlockBalance::BlockBalance(const ContactProblem &problem, const DiscPlaces &places)
+  CoarseCorrection::CoarseCorrection(const ContactProblem &problem, const DiscPlaces &places)
     : places(places)
   {
     const DiscExtent bed      = measure_extent(problem, places);
@@ -30,7 +30,7 @@ namespace alluvium::contacts
     n_rows    = static_cast<std::size_t>(ly / size) + 2;
   }
 
-  BlockBalance::Hats BlockBalance::hats_at(const double x, const double y) const
+  CoarseCorrection::Hats CoarseCorrection::hats_at(const double x, const double y) const
   {
     const double u = (x - left) / size, v = (y - bottom) / size;
     Hats         hats;
@@ -41,7 +41,7 @@ namespace alluvium::contacts
     return hats;
   }
 
-  std::array<double, BlockBalance::n_families> BlockBalance::families(const Contact &contact)
+  std::array<double, CoarseCorrection::n_families> CoarseCorrection::families(const Contact &contact)
   {
     // Three directions 60 degrees apart: (1 + cos 2 (angle to each)) / 3, which sum to one
     const double cosine = (contact.nx * contact.nx - contact.ny * contact.ny) / 3.;
@@ -50,7 +50,7 @@ namespace alluvium::contacts
     return {{third + cosine, third - 0.5 * cosine + half_root * sine, third - 0.5 * cosine - half_root * sine}};
   }
 
-  double BlockBalance::unbalanced(const ContactProblem &problem)
+  double CoarseCorrection::unbalanced(const ContactProblem &problem)
   {
     double largest_terms[2] = {0., 0.};
     for (std::size_t k = 0; k < problem.n_owned_discs; ++k)
@@ -100,7 +100,7 @@ namespace alluvium::contacts
     return std::sqrt(square);
   }
 
-  void BlockBalance::add_contact(
+  void CoarseCorrection::add_contact(
     const Hats &hats, const Contact &contact, const Hats &test, const std::array<double, 4> &value, const double shift)
   {
     const auto   family = families(contact);
@@ -125,7 +125,7 @@ namespace alluvium::contacts
   }
 
   template <class Function>
-  void BlockBalance::for_each_neighbour(const Function &f) const
+  void CoarseCorrection::for_each_neighbour(const Function &f) const
   {
     for (std::size_t row = 0; row < n_rows; ++row)
       for (std::size_t column = 0; column < n_columns; ++column)
@@ -138,7 +138,7 @@ namespace alluvium::contacts
           }
   }
 
-  void BlockBalance::assemble(const ContactProblem &problem)
+  void CoarseCorrection::assemble(const ContactProblem &problem)
   {
     matrix.assign(n_nodes() * width * width * block_size, 0.);
     double largest_impulse = 0.;
@@ -185,7 +185,7 @@ namespace alluvium::contacts
     });
   }
 
-  void BlockBalance::multiply(const std::vector<double> &c, std::vector<double> &result) const
+  void CoarseCorrection::multiply(const std::vector<double> &c, std::vector<double> &result) const
   {
     std::fill(result.begin(), result.end(), 0.);
     for_each_neighbour([&](const std::size_t block, const std::size_t node, const std::size_t test) {
@@ -195,7 +195,7 @@ namespace alluvium::contacts
     });
   }
 
-  void BlockBalance::multiply_transposed(const std::vector<double> &test_values, std::vector<double> &result) const
+  void CoarseCorrection::multiply_transposed(const std::vector<double> &test_values, std::vector<double> &result) const
   {
     std::fill(result.begin(), result.end(), 0.);
     for_each_neighbour([&](const std::size_t block, const std::size_t node, const std::size_t test) {
@@ -205,7 +205,7 @@ namespace alluvium::contacts
     });
   }
 
-  std::vector<double> BlockBalance::solve() const
+  std::vector<double> CoarseCorrection::solve() const
   {
     // Conjugate gradients for the least squares, scaled by the diagonal of the normal matrix
     const std::size_t   n = n_families * n_nodes();
@@ -254,7 +254,7 @@ namespace alluvium::contacts
     return c;
   }
 
-  void BlockBalance::balance(ContactProblem &problem)
+  void CoarseCorrection::balance(ContactProblem &problem)
   {
     assemble(problem);
     const std::vector<double> change = solve();
