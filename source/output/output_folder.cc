@@ -70,6 +70,16 @@ namespace alluvium::output
       return name == "statistics.csv" || name == "summary.json" || name == "parameters.prm" || name == "log.txt";
     }
 
+    /** What has a checkpoint's name in @p folder and is none, or empty. */
+    std::string foreign_checkpoint_in(const fs::path &folder)
+    {
+      for (const auto &entry : fs::directory_iterator(folder))
+        if (const std::string name = entry.path().filename().string();
+            name.compare(0, 10, "checkpoint") == 0 && !holds_a_checkpoint_only(entry))
+          return name;
+      return "";
+    }
+
     /** What this run has read in @p folder and would replace, whatever way its path was written; or empty. */
     std::string input_in(const fs::path &folder)
     {
@@ -168,6 +178,10 @@ namespace alluvium::output
         check_user(input.empty(),
                    "the " + quoted() + " holds '" + input +
                      "', which this run reads and would replace: name another output folder.");
+        const std::string foreign = foreign_checkpoint_in(folder);
+        check_user(foreign.empty(),
+                   "the " + quoted() + " holds '" + foreign +
+                     "', which no run has written, and checkpoints would take its place: name another output folder.");
       }
     return true;
   }

@@ -116,6 +116,22 @@ namespace
 } // namespace
 
 
+TEST(GivenVelocity, SeveralSlotsInACellAndNarrowOnes)
+{
+  for (const auto &[formula, flux] :
+       std::map<std::string, double>{{"if((x>0.0101 && x<0.0105) || (x>0.0112 && x<0.0114), 0.1, 0)", 6e-5},
+                                     {"if(abs(x-0.0153)<2e-5, 0.1, 0)", 4e-6},
+                                     {"if(abs(x-0.01234)<1e-5, 1, 0)", 2e-5},
+                                     {"if(x<0.0111, 0.1, if(x<0.0112, 0, 0.1))", 0.1 * (width - 1e-4)}})
+    for (const unsigned int n : {12, 31})
+      {
+        Tank tank(
+          n, false, {{"Slip walls", "left, right"}, {"Velocity", "bottom: 0 | " + formula}, {"Pressure", "top: 0"}});
+        tank.step();
+        expect_flux(tank, 2, flux, formula + " on " + std::to_string(n));
+      }
+}
+
 TEST(GivenVelocity, SlotNarrowerThanACell)
 {
   for (const bool triangles : {false, true})

@@ -66,7 +66,7 @@ TEST_F(OutputFolderTest, OverwritesWhatARunWroteAndNothingElse)
   std::filesystem::create_directory(path("old"));
   std::filesystem::create_directory(path("old/kept.vtu"));
   std::filesystem::create_directory(path("old/checkpoint"));
-  for (const std::string name : {"statistics.csv", "grains-0001.vtu", "checkpoint/data", "notes.txt"})
+  for (const std::string name : {"statistics.csv", "grains-0001.vtu", "checkpoint/state", "notes.txt"})
     write("old/" + name, "text");
   EXPECT_EQ(create("old", true), "");
   EXPECT_FALSE(std::filesystem::exists(path("old/statistics.csv")));
@@ -74,6 +74,21 @@ TEST_F(OutputFolderTest, OverwritesWhatARunWroteAndNothingElse)
   EXPECT_FALSE(std::filesystem::exists(path("old/checkpoint")));
   EXPECT_TRUE(std::filesystem::exists(path("old/notes.txt")));
   EXPECT_TRUE(std::filesystem::exists(path("old/kept.vtu")));
+}
+
+TEST_F(OutputFolderTest, KeepsWhatOnlyHasACheckpointsName)
+{
+  std::filesystem::create_directory(path("old"));
+  std::filesystem::create_directory(path("old/checkpoint"));
+  write("old/statistics.csv", "text");
+  write("old/checkpoint/state", "text");
+  write("old/checkpoint/notes", "precious");
+  EXPECT_TRUE(contains(create("old", true), "holds 'checkpoint', which no run has written"));
+  EXPECT_EQ(read("old/checkpoint/notes"), "precious");
+  EXPECT_EQ(read("old/statistics.csv"), "text");
+  std::filesystem::create_directory(path("new"));
+  write("new/checkpoint-notes", "precious");
+  EXPECT_TRUE(contains(create("new"), "holds 'checkpoint-notes'"));
 }
 
 TEST_F(OutputFolderTest, RestartsInPlace)

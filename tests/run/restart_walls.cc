@@ -37,6 +37,36 @@ namespace
   }
 } // namespace
 
+TEST(RestartWalls, AWallPutIntoAGrainIsNamed)
+{
+  grains::GrainArrays grain;
+  grain.resize(1);
+  grain.id[0]          = 7;
+  grain.position[0][0] = 0.5;
+  grain.position[1][0] = 0.5;
+  grain.radius[0]      = 0.1;
+  const auto check     = [&](const grains::WallSegment &w) {
+    ContactArchive archive;
+    archive.wall_positions = WallGeometry::positions_of({w});
+    check_room_at_walls(archive, {w}, grain, {});
+  };
+  EXPECT_NO_THROW(check(wall("beside", 0.61)));
+  EXPECT_NO_THROW(check(wall("touching", 0.59))); // a twentieth of the diameter
+  grains::WallSegment gone = wall("gone", 0.5);
+  gone.present             = false;
+  EXPECT_NO_THROW(check(gone));
+  try
+    {
+      check(wall("new", 0.55));
+      ADD_FAILURE();
+    }
+  catch (const UserError &error)
+    {
+      EXPECT_NE(std::string(error.what()).find("the wall 'new' now stands in grain 7"), std::string::npos)
+        << error.what();
+    }
+}
+
 TEST(RestartWalls, WallsInNewPlacesAreWhereTheirMotionHasBroughtThem)
 {
   const std::vector<grains::WallSegment> before = {wall("a", 0., 0.1), wall("b", 1.), wall("c", 2., 0.5)};

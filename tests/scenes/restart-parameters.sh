@@ -45,6 +45,12 @@ grep -q 'changed: Time/Time step: 1e-3 -> 5e-4' screen-output || fail "it does n
 must_run 1 "${again[@]}" --set 'Output/Output folder=double' --set 'Time/Time step=2e-3' --set 'Time/End time=0.008'
 [ "$(tail -n 2 double/statistics.csv | cut -d, -f1 | tr '\n' ' ')" = '0.006 0.008 ' ] || fail "the clock of double steps"
 
+# the grains come from the checkpoint: what has changed in their file is ignored, and said
+cp -r output other-file
+rm data && cp -r "$SCENES/data" data && sed -i '3s/,/1,/' data/bed.csv
+must_run 1 "${again[@]}" --set 'Output/Output folder=other-file'
+grep -q "bed.csv' is not what this run began with" error-output || fail "it does not say that the grains' file has changed"
+
 # the grains come from the checkpoint: their file is not needed any more
-rm data && mkdir data && cp "$SCENES"/data/bed.prm data
+rm -r data && mkdir data && cp "$SCENES"/data/bed.prm data
 must_run 1 "${again[@]}"
