@@ -11,10 +11,10 @@ namespace
   /** What is complained about in @p text, on a box of 3 cm x 2 cm; empty: nothing. */
   std::string complaint(const std::string &text)
   {
-    const std::vector<mesh::BoundarySide> sides = {{0, {{0., 0.}}, {{0., 0.02}}},
-                                                   {1, {{0.03, 0.}}, {{0.03, 0.02}}},
-                                                   {2, {{0., 0.}}, {{0.03, 0.}}},
-                                                   {3, {{0., 0.02}}, {{0.03, 0.02}}}};
+    const std::vector<mesh::BoundarySide> sides = {{{{0., 0.}}, {{0., 0.02}}, 0},
+                                                   {{{0.03, 0.}}, {{0.03, 0.02}}, 1},
+                                                   {{{0., 0.}}, {{0.03, 0.}}, 2},
+                                                   {{{0., 0.02}}, {{0.03, 0.02}}, 3}};
     std::map<std::string, unsigned int>   ids   = {{"left", 0}, {"right", 1}, {"bottom", 2}, {"top", 3}};
     try
       {
