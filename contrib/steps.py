@@ -95,7 +95,8 @@ class Step:
         for component in ("program", "development"):
             self._call(["cmake", "--install", self.build, "--prefix", prefix, "--component", component], "install", 0)
         launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
-        self._call(["cmake", "-S", self.folder, "-B", project, "-DCMAKE_PREFIX_PATH=" + prefix, *launcher], "configure", 0)
+        generator = ["-G", "Ninja"] if shutil.which("ninja") else []  # there may be no make
+        self._call(["cmake", "-S", self.folder, "-B", project, "-DCMAKE_PREFIX_PATH=" + prefix, *generator, *launcher], "configure", 0)
         self._call(["cmake", "--build", project], "build", 0)
         self.alluvium, self.scenes = os.path.join(prefix, "bin", "alluvium"), project
 

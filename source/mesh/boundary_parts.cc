@@ -58,7 +58,7 @@ namespace alluvium::mesh
       part.axis = axis;
     }
 
-    /** A range that reaches beyond its side would bring less than its text says. */
+    /** A range with two ends that reaches beyond its side would bring less than its text says. */
     void
     check_reach(const std::string &item, const geometry::BoundaryPart &part, const std::vector<BoundarySide> &sides)
     {
@@ -71,10 +71,10 @@ namespace alluvium::mesh
               high = std::max(high, end[part.axis]);
             }
       const double tolerance = 1e-9 * (high - low);
-      const bool   begins    = part.low == std::numeric_limits<double>::lowest() || part.low >= low - tolerance,
-                 ends        = part.high == std::numeric_limits<double>::max() || part.high <= high + tolerance;
+      const bool   is_open   = part.low == std::numeric_limits<double>::lowest() ||
+                           part.high == std::numeric_limits<double>::max(); // as `x < 1` for all of a side
       const std::string axis = part.axis == 0 ? "x" : "y";
-      check_user(begins && ends,
+      check_user(is_open || (part.low >= low - tolerance && part.high <= high + tolerance),
                  where + ": '" + item + "' reaches beyond '" + part.side_name + "', which goes from " + axis + " = " +
                    in_digits(low) + " to " + in_digits(high) + " m. For all of it from or up to a point write `" +
                    axis + " > ...` or `" + axis + " < ...`.");

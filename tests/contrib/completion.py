@@ -44,7 +44,7 @@ class Bash:
         printed, end = "", time.time() + 30
         while not os.path.exists(self.line) and time.time() < end:
             printed += self.read(0.1)
-        time.sleep(0.1)
+        printed += self.read(0.1)  # what came before the line was written, if that was quick
         with open(self.line) as file:
             line = file.read()
         self.send("\x15")

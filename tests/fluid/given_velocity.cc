@@ -119,7 +119,7 @@ namespace
 TEST(GivenVelocity, SeveralSlotsInACellAndNarrowOnes)
 {
   for (const auto &[formula, flux] :
-       std::map<std::string, double>{{"if((x>0.0101 && x<0.0105) || (x>0.0112 && x<0.0114), 0.1, 0)", 6e-5},
+       std::map<std::string, double>{{"if(x>0.0101 && x<0.0105, 0.1, 0) + if(x>0.0112 && x<0.0114, 0.1, 0)", 6e-5},
                                      {"if(abs(x-0.0153)<2e-5, 0.1, 0)", 4e-6},
                                      {"if(abs(x-0.01234)<1e-5, 1, 0)", 2e-5},
                                      {"if(x<0.0111, 0.1, if(x<0.0112, 0, 0.1))", 0.1 * (width - 1e-4)}})

@@ -171,10 +171,10 @@ namespace
 // 1,700.
 void expect_uniform_stream(const Mesh mesh, const double cell)
 {
-  const double allowed = 1e-6;
+  const double allowed = mesh == Mesh::triangles ? 2e-6 : 1e-6;
   Channel      c(mesh, cell);
   open_ends(c, Kind::slip, "10000");
-  c.solver->linear_solver.tolerance = 1e-12; // what solves leave adds up over the steps
+  c.solver->linear_solver.tolerance = 1e-13; // what solves leave adds up over the steps
   const double dt = 1e-4;
   for (unsigned int n = 0; n < 1000; ++n)
     {

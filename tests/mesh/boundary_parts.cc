@@ -37,6 +37,7 @@ TEST(BoundaryParts, WithinTheirSide)
 {
   EXPECT_EQ(complaint("a = bottom: 0.014 < x < 0.016; b = left: y > 0.01; c = top: x < 0.03"), "");
   EXPECT_EQ(complaint("a = bottom: 0 < x < 0.03"), "");
+  EXPECT_EQ(complaint("a = bottom: x < 1"), ""); // all of it
   EXPECT_TRUE(complains("a = top: 0.018 < x < 0.035", "reaches beyond 'top', which goes from x = 0 to 0.03 m"));
   EXPECT_TRUE(complains("a = bottom: 0.012 < x < 0.011", "ends before it begins"));
   EXPECT_TRUE(complains("a = bottom: 0.04 < x < 0.05", "no point of 'bottom' lies there"));

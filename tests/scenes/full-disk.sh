@@ -101,6 +101,7 @@ END
 else
   (
     ulimit -f 8
+    export OMPI_MCA_btl=self # MPI has files of its own for shared memory, and complains
     ends_clearly "${pictures[@]}" --set "Output/Output folder=small/out"
   ) || exit 1
   listed_is_whole small/out
