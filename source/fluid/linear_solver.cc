@@ -390,7 +390,7 @@ namespace alluvium::fluid
             convective = convective || fresh;
             build(matrix, row_sums);
           }
-        else if (!converged && found <= std::max(acceptable, std::min(round_off(matrix, ratio, x), 1e-3 * scale[0])))
+        else if (!converged && found <= std::min(round_off(matrix, ratio, x), 1e-3 * scale[0]))
           // it stalls where round-off of large cancelling terms is above the tolerance: good enough is told, not hidden
           solved = report.loose = true;
         else if (!converged)
@@ -400,7 +400,9 @@ namespace alluvium::fluid
                                             "singular, or nearly so. Are Fluid/Viscosity, Fluid/Density and lengths "
                                             "in SI units, and is the time step sensible?"
                                           : factorise(matrix);
-            AssertThrow(why_not.empty(),
+            // what GMRES has left may grow over the steps: good enough only where nothing does better
+            solved = report.loose = !why_not.empty() && found <= acceptable;
+            AssertThrow(why_not.empty() || solved,
                         ExcMessage("The fluid's linear solver has not converged in " + std::to_string(limit) +
                                    " iterations: relative residual " + in_digits(report.residual) + ", tolerance " +
                                    in_digits(stop) + ". " + why_not));

@@ -171,7 +171,7 @@ namespace
 // 1,700.
 void expect_uniform_stream(const Mesh mesh, const double cell)
 {
-  const double allowed = mesh == Mesh::triangles ? 2e-6 : 1e-6;
+  const double allowed = 1e-6;
   Channel      c(mesh, cell);
   open_ends(c, Kind::slip, "10000");
   c.solver->linear_solver.tolerance = 1e-13; // what solves leave adds up over the steps
