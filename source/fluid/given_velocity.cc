@@ -19,10 +19,12 @@ namespace alluvium::fluid
     constexpr unsigned int n_pieces_of_smooth = 16, n_pieces_of_others = 256;
     constexpr unsigned int max_depth = 40;
 
-    /** May the formula have jumps? Functions that are not formulas may. */
-    bool may_jump(const std::string &text)
+    /** May the value have jumps? A formula says so (its components are divided by '|'), others may. */
+    template <typename Condition>
+    bool may_jump(const Condition &condition)
     {
-      return text.empty() || text.find_first_of("<>?=!&|%") != std::string::npos ||
+      const std::string &text = condition.text;
+      return text.empty() || condition.of_plugin || text.find_first_of("<>?=!&%") != std::string::npos ||
              std::any_of(std::begin(jumping), std::end(jumping), [&](const char *word) {
                return text.find(word) != std::string::npos;
              });
@@ -123,7 +125,7 @@ namespace alluvium::fluid
           return velocity_at(condition, Point<dim>((1. - s) * face.end[0] + s * face.end[1]));
         };
         Moments m = integrate_part<dim>(
-          velocity, face.from, face.to, may_jump(condition.text) ? n_pieces_of_others : n_pieces_of_smooth);
+          velocity, face.from, face.to, may_jump(condition) ? n_pieces_of_others : n_pieces_of_smooth);
         for (auto &moment : m)
           moment *= face.length();
         moments.push_back(m);
