@@ -5,6 +5,7 @@
 #include <alluvium/run/leavers.h>
 #include <alluvium/run/mesh_changes.h>
 #include <alluvium/run/model.h>
+#include <alluvium/run/model_choice.h>
 #include <alluvium/run/output.h>
 #include <alluvium/run/run_guard.h>
 #include <alluvium/run/scene_report.h>
@@ -23,6 +24,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <iostream>
 #include <sstream>
 
@@ -56,9 +58,12 @@ namespace alluvium
     int  advance();
     void step();
     bool try_step(bool mesh_has_changed);
+    void watch_model();
+    void summarise_model();
     void count_step();
 
     run::TimeStepControl time_step;
+    run::ModelChoice     model_choice;
 
     run::RunGuard guard;
     bool          restart  = false;
@@ -72,6 +77,7 @@ namespace alluvium
   void Simulation::Implementation::add_parameters(ParameterHandler &prm)
   {
     model.add_parameters(prm);
+    model_choice.add_parameters(prm);
     time_step.add_parameters(prm);
     output.add_parameters(prm);
     guard.add_parameters(prm);
@@ -90,7 +96,7 @@ namespace alluvium
 
   void Simulation::Implementation::report_scene() const
   {
-    run::report_scene(model, output, time_step, end_time, std::cout);
+    run::report_scene(model, output, time_step, model_choice, end_time, std::cout);
   }
 
 
@@ -115,7 +121,7 @@ namespace alluvium
         checkpoint = std::make_unique<run::Checkpoint>(model.communicator, output.folder().file("checkpoint"));
         changes    = checkpoint->compare_parameters(model);
       }
-    run::set_up(model, directory, checkpoint.get());
+    run::set_up(model, directory, checkpoint.get(), model_choice);
     // a run that was killed between its last checkpoint and its summary has the summary left to do
     check_user(!restart || !has_ended() ||
                  (model.time <= end_time + 1e-6 * model.time_step && !output.holds_finished_run()),
@@ -128,6 +134,9 @@ namespace alluvium
     time_step.prepare(end_time, intervals);
     if (!time_step.automatic() || run::stable_step(model, end_time) == 0.) // else it is obeyed
       run::check_time_step(model, end_time);
+    if (!restart || !model_choice.load(checkpoint->saved_state(), model))
+      model_choice.choose(model, {end_time, output.intervals()[0], time_step.automatic()});
+    summarise_model();
     output.choose_observers();
     if (writes && !restart)
       output.make_folder(false);
@@ -169,7 +178,10 @@ namespace alluvium
         time_step.load(checkpoint->saved_state());
       }
     checkpoint.reset();
-    guard.also_save([this](nlohmann::ordered_json &state) { time_step.save(state); });
+    guard.also_save([this](nlohmann::ordered_json &state) {
+      time_step.save(state);
+      model_choice.save(model, state);
+    });
     guard.begin(restart);
     try
       {
@@ -211,6 +223,7 @@ namespace alluvium
         count_step();
         guard.judge();
         output.update();
+        watch_model();
         signal = stop_requested(model.communicator);
         guard.keep();
         shown.update(model.n_steps, model.time, model.time_step, guard.state_in_words());
@@ -228,7 +241,7 @@ namespace alluvium
     if (run::remove_leavers(m))
       guard.after_removal();
     const bool has_sizes = m.grains.n() > 0 || m.grain_setup.unit_length() > 0.; // cells are measured in grains
-    if (m.has_fluid && m.adaptivity.due(m.n_steps) && has_sizes)
+    if (m.has_fluid && model_choice.adapts() && m.adaptivity.due(m.n_steps) && has_sizes)
       {
         guard.before_mesh_change();
         mesh_has_changed = run::adapt_mesh(m);
@@ -294,6 +307,34 @@ namespace alluvium
           throw;
       }
     return false;
+  }
+
+
+  /** Switch on what the last step shows to be wanted. */
+  void Simulation::Implementation::watch_model()
+  {
+    const auto switched = model_choice.watch(model);
+    if (switched.empty())
+      return;
+    for (const auto &of_term : switched)
+      if (model.is_root)
+        std::cout << of_term.text << std::endl;
+    summarise_model();
+    guard.after_model_change();
+  }
+
+
+  void Simulation::Implementation::summarise_model()
+  {
+    for (const auto &row : model_choice.rows())
+      {
+        const std::string path = "model/" + run::name_of(row.term.term) + "/";
+        output.add_to_summary(path + "on", row.term.on ? "yes" : "no");
+        output.add_to_summary(path + "because", row.term.because);
+        output.add_to_summary(path + "estimate", row.term.estimate);
+        if (!std::isnan(row.since))
+          output.add_to_summary(path + "switched_on_s", row.since);
+      }
   }
 
 

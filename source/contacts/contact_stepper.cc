@@ -1,6 +1,7 @@
 #include <alluvium/contacts/contact_force_list.h>
 #include <alluvium/contacts/contact_stepper.h>
 #include <alluvium/contacts/contact_substep.h>
+#include <alluvium/contacts/free_flight.h>
 #include <alluvium/contacts/laws/cohesion.h>
 #include <alluvium/contacts/laws/contact_law.h>
 #include <alluvium/contacts/rest.h>
@@ -62,6 +63,8 @@ namespace alluvium::contacts
     ContactWork                 work;
     Rest                        rest;
     double                      time = 0.; // when the next step starts [s]
+    FreeFlight                  flight;
+    bool                        are_left_out = false;
 
     ContactReport advance(grains::GrainArrays      &grains,
                           const grains::GrainLoads &loads,
@@ -94,6 +97,7 @@ namespace alluvium::contacts
       work.neighbours.forget();
       work.repeat_search({});
       rest.forget();
+      flight.forget();
     }
 
   private:
@@ -139,6 +143,22 @@ namespace alluvium::contacts
     const Cohesion *const cohesion  = acting_cohesion();
     materials.law                   = acting_law();
     const ContactScales scales      = make_scales(grains, gravity);
+    if (are_left_out)
+      {
+        if (flight.is_safe(grains, loads, dt, settings.rotation, work.geometry))
+          {
+            report.n_substeps = count_substeps(grains, loads, dt, settings.max_move * scales.d_min);
+            grains.contact_force[0].assign(n, 0.);
+            grains.contact_force[1].assign(n, 0.);
+            flight.move(grains, loads, dt / report.n_substeps, report.n_substeps, settings.rotation, work.geometry);
+            for (std::size_t k = 0; k < n; ++k)
+              report.max_velocity =
+                std::max(report.max_velocity, std::hypot(grains.velocity[0][k], grains.velocity[1][k]));
+            return report;
+          }
+        are_left_out = false;
+        forget(); // where grains were when they were last looked at
+      }
     work.repeat_search(grains, loads, shares(n));
     if (model == "soft-sphere")
       {
@@ -231,6 +251,28 @@ namespace alluvium::contacts
     make_materials(settings(), walls);
     implementation->work.geometry.walls.set(std::move(walls));
     implementation->forget();
+  }
+
+  void ContactStepper::leave_out(const bool while_nothing_meets)
+  {
+    implementation->are_left_out = while_nothing_meets;
+    implementation->flight.forget();
+  }
+
+  bool ContactStepper::are_left_out() const
+  {
+    return implementation->are_left_out;
+  }
+
+  bool ContactStepper::may_be_left_out() const
+  {
+    return implementation->model == "non-smooth" && implementation->acting_cohesion() == nullptr &&
+           std::none_of(walls().begin(), walls().end(), grains::ever_acts);
+  }
+
+  double ContactStepper::smallest_gap(const grains::GrainArrays &grains, const double largest) const
+  {
+    return grains.n() == 0 ? largest : FreeFlight::smallest_gap(grains, implementation->work.geometry, largest);
   }
 
   void ContactStepper::set_time(const double time)

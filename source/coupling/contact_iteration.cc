@@ -97,7 +97,7 @@ namespace alluvium::coupling
                                                     const std::array<double, 2> &gravity)
   {
     constexpr unsigned int           depth = 5; // of the mixing
-    const TimeScheme::IterationLimit limit = coupling.iteration_limit();
+    const TimeScheme::IterationLimit limit = is_left_out ? TimeScheme::IterationLimit() : coupling.iteration_limit();
     const bool                       tries = limit.largest_number > 0;
     // the tolerance of 1e-2 bears contacts a hundred times looser, a tight one none
     const double             tolerance_factor = tries ? std::clamp(1e4 * limit.tolerance, 1., 100.) : 1.;
@@ -118,9 +118,14 @@ namespace alluvium::coupling
       {
         Attempt attempt = move(grains, loads, dt, gravity, tolerance_factor);
         count(attempt.report);
-        const double defect    = root_mean_square(attempt.defect);
-        n_stalled              = defect > 0.7 * best ? n_stalled + 1 : 0;
-        best                   = std::min(best, defect);
+        const double defect = root_mean_square(attempt.defect);
+        n_stalled           = defect > 0.7 * best ? n_stalled + 1 : 0;
+        best                = std::min(best, defect);
+        if (is_left_out)
+          {
+            const double typical = coupling.typical_force(grains);
+            relative_defect      = typical > 0. ? defect / typical : 0.;
+          }
         const double tolerance = n == 0 ? 0.1 * limit.tolerance : limit.tolerance;
         agree                  = !tries || agrees(grains, attempt, tolerance);
         if (agree || n_stalled == 2 || n == limit.largest_number)

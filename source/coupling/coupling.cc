@@ -113,7 +113,7 @@ namespace alluvium::coupling
     for (unsigned int d = 0; d < dim; ++d)
       writer.put(map.position_of_cut()[d]);
     writer.put(outside_range.flags());
-    writer.put<std::uint8_t>(is_steady && inputs_of(grains, touched, dt, fixed) == last_inputs);
+    writer.put<std::uint8_t>(is_steady && inputs_of(grains, touched, relevant_dt(dt, fixed), fixed) == last_inputs);
   }
 
 
@@ -141,9 +141,9 @@ namespace alluvium::coupling
     Assert(touched.size() == grains.n(), ExcDimensionMismatch(touched.size(), grains.n()));
     Assert(eps.size() > 0, ExcMessage("reinit() comes before the first step."));
     Assert(dt > 0., ExcMessage("A step takes time."));
-    const CouplingReport before               = last;
-    const bool           moved                = update_void_fraction(grains);
-    const auto           inputs               = [&] { return inputs_of(grains, touched, dt, fixed); };
+    const CouplingReport before = last;
+    const bool           moved  = update_void_fraction(grains);
+    const auto           inputs = [&] { return inputs_of(grains, touched, relevant_dt(dt, fixed), fixed); };
     const bool           same_boundary_values = solver->has_boundary_values(boundary_conditions, eps);
     if (!moved && same_boundary_values && is_steady && inputs() == last_inputs)
       {
@@ -164,8 +164,12 @@ namespace alluvium::coupling
     problem.dt        = dt;
     last.n_iterations = last.n_loose = last.n_direct = 0;
     count(solve.solve(boundary_conditions, scheme, problem, state));
+    // fixed grains, and no inertia: the flow of the last step is only where the search begins
+    finds_stationary = fixed && !solver->discretisation.inertia;
+    const bool is_stationary =
+      finds_stationary && find_stationary(boundary_conditions, scheme, problem, same_boundary_values, state);
     find_loads(scheme, state, loads);
-    is_steady = same_boundary_values && last.n_iterations == 0;
+    is_steady = is_stationary || (same_boundary_values && last.n_iterations == 0);
     if (is_steady)
       last_inputs = inputs();
     last.steady = resumes && !moved && is_steady;
@@ -173,6 +177,31 @@ namespace alluvium::coupling
     count(std::exchange(of_reinitialisation, {}));
     pieces   = std::move(state);
     has_step = true;
+  }
+
+
+  bool Coupling::find_stationary(const fluid::BoundaryConditions<dim> &boundary_conditions,
+                                 const TimeScheme                     &scheme,
+                                 fluid::VansProblem<dim>               problem,
+                                 const bool                            to_the_end,
+                                 CouplingState                        &state)
+  {
+    constexpr unsigned int most  = 20;
+    constexpr double       loose = 1e-4; // relative residual: the next step goes on from there
+    if (!to_the_end)
+      problem.tolerance_factor = std::max(1., loose / solver->linear_solver.tolerance);
+    flow_before = solver->old();
+    flow_before.update_ghost_values();
+    for (unsigned int n = 0; n < most; ++n)
+      {
+        solver->accept(); // drag and convection are those of the flow that was found
+        solve.prepare(state);
+        const SolveCounts counts = solve.solve(boundary_conditions, scheme, problem, state);
+        count(counts);
+        if (counts.n_iterations == 0)
+          return to_the_end;
+      }
+    return false;
   }
 
 
@@ -221,7 +250,9 @@ namespace alluvium::coupling
                                    const fluid::BlockVector             &before,
                                    const double                          share)
   {
-    is_steady = resumes     = false;
+    is_steady = resumes = false;
+    if (!solver->discretisation.inertia)
+      return false; // the next step does not ask what the flow was
     const FlowChange change = flow_change(*space, *solver, before, grains);
     // what interpolation leaves in a few cells is less than what finding the flow anew does to accelerating grains
     constexpr double small_share = 0.2;

@@ -8,7 +8,8 @@ namespace alluvium::fluid
   template <int dim, int n>
   void add_mesh(const CellState<dim, n> &state, LocalMatrix<dim, n> &L)
   {
-    const double rho = state.problem.fluid.density, eta = state.problem.fluid.viscosity, dt = state.problem.dt;
+    const double rho = state.problem.fluid.density, eta = state.problem.stress_viscosity(),
+                 dt   = state.problem.inertia_dt();
     const double pspg = state.pspg, supg = state.supg;
     for (unsigned int q = 0; q < state.space.n_q_points(); ++q)
       {
@@ -57,7 +58,7 @@ namespace alluvium::fluid
         const auto                  grad       = state.cell->grad[q];
         const double                jxw        = state.cell->jxw[q];
         const double                eps        = state.value(state.eps, phi);
-        const double                inertia    = eps * rho / state.problem.dt;
+        const double                inertia    = eps * rho / state.problem.inertia_dt();
         const std::array<double, n> streamline = state.advect(grad, phi);
         std::array<double, dim>     force{};
         for (unsigned int d = 0; d < dim; ++d)

@@ -38,9 +38,10 @@ namespace alluvium::fluid
       sigma += problem.solid->shape[k].area * problem.solid->exchange[k].gamma;
     sigma /= cell->measure;
     const double rho_eps = problem.fluid.density * eps_mean, h = cell->size;
-    const double dt      = problem.stabilisation_dt > 0. ? problem.stabilisation_dt : problem.dt;
+    const double dt =
+      problem.stabilisation_dt > 0. && problem.discretisation.inertia ? problem.stabilisation_dt : problem.inertia_dt();
     const double inertia = 2. * rho_eps / dt, advection = 2. * rho_eps * u_norm / h,
-                 diffusion = 12. * eps_mean * problem.fluid.viscosity / (h * h), drag = 2. * sigma;
+                 diffusion = 12. * eps_mean * problem.stress_viscosity() / (h * h), drag = 2. * sigma;
     const double tau =
       1. / std::sqrt(inertia * inertia + advection * advection + diffusion * diffusion + drag * drag + 1e-300);
     pspg = tau * eps_mean;

@@ -62,7 +62,7 @@ namespace alluvium::fluid
     void add_cell(const CellState<dim, n> &state, const LocalVector<dim, n> &x, EnergyBalance &sum)
     {
       const VansProblem<dim> &problem = state.problem;
-      const double            rho = problem.fluid.density, eta = problem.fluid.viscosity;
+      const double            rho = problem.fluid.density, eta = problem.stress_viscosity(), dt = problem.inertia_dt();
       double                  galerkin = 0.; // that is neither time nor convection
       for (unsigned int q = 0; q < state.space.n_q_points(); ++q)
         {
@@ -70,13 +70,16 @@ namespace alluvium::fluid
           const Values<dim> at(state, x, phi.data(), state.cell->grad[q].data());
           const double      jxw = state.cell->jxw[q], eps = state.value(state.eps, phi), mass = jxw * eps * rho;
           const double      kinetic = 0.5 * mass * at.u.norm_square(), before = 0.5 * mass * at.old.norm_square();
-          sum.kinetic_energy += kinetic;
-          sum.kinetic_before += before;
-          const double time = 0.5 * mass * (at.u - at.old).norm_square() / problem.dt;
+          if (problem.discretisation.inertia) // else the equations know no kinetic energy
+            {
+              sum.kinetic_energy += kinetic;
+              sum.kinetic_before += before;
+            }
+          const double time = 0.5 * mass * (at.u - at.old).norm_square() / dt;
           sum.time += time;
           const double viscous = jxw * eps * eta * scalar_product(at.grad_u + transpose(at.grad_u), at.grad_u);
           sum.viscous += viscous;
-          galerkin += (kinetic - before) / problem.dt + time + viscous;
+          galerkin += (kinetic - before) / dt + time + viscous;
           galerkin += jxw * (1. - eps) * (at.grad_p * at.u);
           const auto streamline = state.advect(state.cell->grad[q], phi);
           for (unsigned int v = 0; v < n; ++v)

@@ -138,7 +138,7 @@ namespace alluvium::fluid
   {
     const OpenBoundaryTerms            &terms     = state.problem.discretisation.open_boundary;
     const double                        rho       = state.problem.fluid.density;
-    const double                        viscosity = terms.traction ? state.problem.fluid.viscosity : 0.;
+    const double                        viscosity = terms.traction ? state.problem.stress_viscosity() : 0.;
     std::optional<MeanResidual<dim, n>> upwinded;
     // upwinding knows no viscous term: only where viscosity can balance the rest, and momentum stays that of the pieces
     if (terms.upwinding && state.problem.discretisation.convection && !state.has_pieces())

@@ -29,6 +29,16 @@ namespace alluvium::fluid
       "Convection",
       discretisation.convection,
       "Keep u.grad u (and its stabilisation). Without it the fluid obeys the volume-averaged Stokes equations.");
+    prm.add_parameter("Inertia",
+                      discretisation.inertia,
+                      "Keep du/dt. Without it the flow is at any time the one that grains and boundaries of then make "
+                      "stationary: right "
+                      "for what changes slowly beside the time in which drag and viscosity stop the fluid.");
+    prm.add_parameter(
+      "Viscous stress",
+      discretisation.viscosity,
+      "Keep the viscous stress of the mixture. Without it drag alone holds the fluid, as in Darcy's law: only for "
+      "grains that are everywhere in the domain.");
     prm.add_parameter(
       "Lumped drag",
       discretisation.lumped_drag,
@@ -75,6 +85,7 @@ namespace alluvium::fluid
             volumes.block(0).local_element(cell.velocity[v][d]) += share;
         }
     volumes.compress(VectorOperation::add);
+    domain_volume = volumes.block(1).l1_norm();
     for (BlockVector *field : {&iterate, &previous, &residual, &increment, &product, &known})
       space->reinit_field(*field);
     iterate.update_ghost_values();
@@ -156,8 +167,10 @@ namespace alluvium::fluid
         linear_solver.clear();
         dt_of_preconditioner = current.dt;
       }
-    linear_solver.scales.inertia   = properties.density / current.dt;
-    linear_solver.scales.viscosity = properties.viscosity;
+    // without inertia, what viscosity makes of the largest eddies is the least that holds a row together
+    linear_solver.scales.inertia =
+      discretisation.inertia ? properties.density / current.dt : properties.viscosity / domain_volume;
+    linear_solver.scales.viscosity = discretisation.viscosity ? properties.viscosity : 0.;
     update_given(boundary_conditions, *current.void_fraction);
     current.given_fluxes = &given.face_fluxes();
     current.drive        = drive();

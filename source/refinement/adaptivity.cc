@@ -123,6 +123,16 @@ namespace alluvium::refinement
 
 
   template <int dim>
+  bool Adaptivity<dim>::needs_grains_alone() const
+  {
+    const auto all = criteria.all();
+    return std::none_of(all.begin(), all.end(), [](const auto *criterion) {
+      return criterion->needs_fluid() || criterion->depends_on_time();
+    });
+  }
+
+
+  template <int dim>
   void Adaptivity<dim>::check_mesh(const Triangulation<dim> &triangulation) const
   {
     check_user(finest <= coarsest,

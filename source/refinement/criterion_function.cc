@@ -53,6 +53,8 @@ namespace alluvium::refinement
         return result;
       }
 
+      bool depends_on_time() const override { return true; }
+
     private:
       std::string                          text = "4";
       std::shared_ptr<dealii::Function<2>> function;

@@ -1,5 +1,6 @@
 #include <alluvium/grains/packing.h>
 #include <alluvium/run/model.h>
+#include <alluvium/run/model_choice.h>
 #include <alluvium/run/output.h>
 #include <alluvium/run/scene_numbers.h>
 #include <alluvium/run/scene_report.h>
@@ -18,14 +19,6 @@ namespace alluvium::run
 {
   namespace
   {
-    std::string rounded(const double x)
-    {
-      std::ostringstream text;
-      text.precision(3);
-      text << x;
-      return text.str();
-    }
-
     std::string in_words(const fluid::BoundaryConditions<Model::dim>::Condition &condition)
     {
       using Kind = fluid::BoundaryConditions<Model::dim>::Kind;
@@ -134,8 +127,12 @@ namespace alluvium::run
   } // namespace
 
 
-  void report_scene(
-    const Model &m, const Output &output, const TimeStepControl &control, const double end_time, std::ostream &out)
+  void report_scene(const Model           &m,
+                    const Output          &output,
+                    const TimeStepControl &control,
+                    const ModelChoice     &choice,
+                    const double           end_time,
+                    std::ostream          &out)
   {
     const SceneNumbers s = find_scene_numbers(m, end_time); // collective
     if (!m.is_root)
@@ -215,12 +212,16 @@ namespace alluvium::run
         line("head", output.where_head());
       }
     else
-      line("fluid", "left out (Fluid/Model = none): no mesh, no matrices");
+      line("fluid",
+           !choice.rows().empty() && choice.rows().front().term.is_asked
+             ? "left out (Model = auto): no mesh, no matrices"
+             : "left out (Fluid/Model = none): no mesh, no matrices");
     lines("boundaries", boundaries(m));
     lines("walls", other_walls(m));
     line("contacts",
          m.grains_move ? std::to_string(m.contacts.walls().size()) + " walls; " + m.contacts.sharing(m.grains.n())
                        : "left out: all grains are fixed");
+    lines("model", choice.in_words());
     line("observers", output.observers());
     line("costs",
          rounded(s.n_steps) + " steps; roughly " + rounded(s.memory / 1e9) + " GB of memory and " +

@@ -1,6 +1,7 @@
 #include <alluvium/run/checkpoint.h>
 #include <alluvium/run/mesh_changes.h>
 #include <alluvium/run/model.h>
+#include <alluvium/run/model_choice.h>
 #include <alluvium/run/scene_size.h>
 #include <alluvium/run/set_up.h>
 #include <alluvium/utilities/divergence.h>
@@ -153,9 +154,10 @@ namespace alluvium::run
   }
 
 
-  void set_up(Model &m, const std::string &directory, Checkpoint *from)
+  void set_up(Model &m, const std::string &directory, Checkpoint *from, ModelChoice &choice)
   {
     m.parse_parameters();
+    choice.parse_parameters();
     check_user(m.has_fluid || !(m.grain_setup.unit_length() > 0.),
                "Grains/Deposit = none and Fluid/Model = none: there is nothing to compute.");
     m.domain.initialize(m.communicator, directory);
@@ -170,6 +172,7 @@ namespace alluvium::run
     const unsigned int across         = 1 - m.upright().vertical;
     if (from)
       {
+        choice.load_fluid(from->saved_state(), m);
         from->load_grains(m);
         m.initial_bed.upright = m.upright();
       }
@@ -183,6 +186,13 @@ namespace alluvium::run
                                ? m.domain.coarse_cell_size()
                                : m.adaptivity.coarse_size(m.refinement_context());
         m.touched.assign(m.grains.n(), 0);
+        if (choice.automatic() && m.has_fluid)
+          {
+            const auto periodicity = m.domain.periodicity();
+            m.space.set_periodic_box({periodicity.lower, periodicity.length});
+            m.solver.initialize_driving(formula_constants(m));
+            choice.choose_fluid(m);
+          }
         check_scene_size(m);
         if (m.is_root)
           for (const std::string &path : noted_inputs())

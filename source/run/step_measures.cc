@@ -49,7 +49,8 @@ namespace alluvium::run
           sums.velocity_square = std::max(sums.velocity_square, fastest);
           sums.courant         = std::max(sums.courant, fastest / (cell.size * cell.size));
         }
-      sums.kinetic *= 0.5 * m.solver.properties.density;
+      sums.kinetic *=
+        m.solver.discretisation.inertia ? 0.5 * m.solver.properties.density : 0.; // without, there is none
       sums.finite         = any == 0.;
       const auto &volumes = m.space.node_volumes();
       for (unsigned int i = 0; i < eps.locally_owned_size(); ++i)

@@ -10,4 +10,13 @@ namespace alluvium
     text << x;
     return text.str();
   }
+
+
+  std::string rounded(const double x)
+  {
+    std::ostringstream text;
+    text.precision(3);
+    text << x;
+    return text.str();
+  }
 } // namespace alluvium

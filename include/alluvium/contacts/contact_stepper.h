@@ -67,6 +67,18 @@ namespace alluvium::contacts
      */
     void set_communicator(MPI_Comm communicator);
 
+    /**
+     * Move grains without a contact problem until two of them, or one and a wall, may meet in a step: that step is the
+     * first with contacts, and are_left_out() is false from then on. Not for soft spheres, cohesion, or walls that move
+     * (may_be_left_out()).
+     */
+    void leave_out(bool while_nothing_meets);
+    bool are_left_out() const;
+    bool may_be_left_out() const;
+
+    /** The smallest gap between two grains, or a grain and a wall [m], or @p largest if that is less. */
+    double smallest_gap(const grains::GrainArrays &grains, double largest) const;
+
     /** In words, who works on the contacts of @p n_grains. */
     std::string sharing(std::size_t n_grains) const;
 

@@ -35,6 +35,15 @@ namespace alluvium::coupling
     /** Whether it ended within the time scheme's tolerance; true where that has none. */
     bool agrees() const { return agree; }
 
+    /** Take each step as its first solve gives it, whatever the time scheme asks for. */
+    void leave_out(const bool yes) { is_left_out = yes; }
+
+    /**
+     * If so, what the latest step leaves between fluid and grains: root mean square of Coupling::momentum_defect() over
+     * the mean force on a grain.
+     */
+    double defect_left() const { return relative_defect; }
+
   private:
     /** What contacts make of the grains, and the forces that the fluid has not seen in it. */
     struct Attempt
@@ -55,6 +64,7 @@ namespace alluvium::coupling
     contacts::ContactStepper &contacts;
     Timers                   &timers;
     unsigned int              n     = 0;
-    bool                      agree = true;
+    bool                      agree = true, is_left_out = false;
+    double                    relative_defect = 0.;
   };
 } // namespace alluvium::coupling

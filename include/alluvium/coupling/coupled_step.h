@@ -44,6 +44,7 @@ namespace alluvium::coupling
 
     /** How fluid and contacts came to agree in the latest step. */
     const ContactIteration &iteration() const { return contact_iteration; }
+    ContactIteration       &iteration() { return contact_iteration; }
 
   private:
     fluid::VansSolver<2>     &solver;

@@ -148,6 +148,15 @@ namespace alluvium::coupling
       return outside_range.ids(grains);
     }
 
+    /** The flow at the beginning of the latest step; ghosted. */
+    const fluid::BlockVector &flow_before_step() const { return finds_stationary ? flow_before : solver->old(); }
+
+    /** Solve the next step in any case: the equations are others. */
+    void forget_steady() { is_steady = resumes = false; }
+
+    double added_mass_coefficient() const { return solve.added_mass_coefficient(); }
+    bool   couples_rotation() const { return solve.couples_rotation(); }
+
     OverlapSettings settings;
 
   private:
@@ -171,6 +180,23 @@ namespace alluvium::coupling
     static Inputs
     inputs_of(const grains::GrainArrays &grains, const std::vector<std::uint8_t> &touched, double dt, bool fixed);
 
+    /** The time step, or 0 where the flow does not depend on it: through fixed grains, without inertia. */
+    double relevant_dt(const double dt, const bool fixed) const
+    {
+      return fixed && !solver->discretisation.inertia ? 0. : dt;
+    }
+
+    /**
+     * Solve @p problem, which has no inertia, until drag and convection are those of the flow itself: @p to_the_end, so
+     * that nothing changes any more, or, while boundaries change, to a relative residual of 1e-4. Returns whether
+     * nothing will change. Collective.
+     */
+    bool find_stationary(const fluid::BoundaryConditions<dim> &boundary_conditions,
+                         const TimeScheme                     &scheme,
+                         fluid::VansProblem<dim>               problem,
+                         bool                                  to_the_end,
+                         CouplingState                        &state);
+
     void count(const SolveCounts &counts);
     void find_loads(const TimeScheme &scheme, const CouplingState &state, grains::GrainLoads &loads);
 
@@ -189,9 +215,11 @@ namespace alluvium::coupling
     SolveCounts        of_reinitialisation; // for the report of the step that follows
     Inputs             last_inputs;
     grains::GrainLoads last_loads;
-    bool               is_steady = false; // the last step left the fluid as it was
-    bool               resumes   = false; // with a step that the uninterrupted run may not compute
-    bool               has_step  = false; // since the grains were others
-    PieceState         pieces;            // of the latest step
+    bool               is_steady        = false; // the last step left the fluid as it was
+    bool               resumes          = false; // with a step that the uninterrupted run may not compute
+    bool               has_step         = false; // since the grains were others
+    bool               finds_stationary = false; // in the latest step, which then keeps where it began
+    fluid::BlockVector flow_before;
+    PieceState         pieces; // of the latest step
   };
 } // namespace alluvium::coupling

@@ -2,6 +2,8 @@
 
 #include <alluvium/fluid/fluid_space.h>
 
+#include <limits>
+
 namespace alluvium::fluid
 {
   struct FluidProperties
@@ -25,6 +27,8 @@ namespace alluvium::fluid
   {
     bool lumped_drag = true; // row-sum lumping of the drag in the momentum equation
     bool convection  = true; // u.grad u and its stabilisation
+    bool inertia     = true; // du/dt; without it the flow is at any time that of the grains and the boundaries of then
+    bool viscosity   = true; // viscous stress of the mixture; without it drag alone holds the fluid, as in Darcy's law
 
     OpenBoundaryTerms open_boundary;
   };
@@ -49,5 +53,11 @@ namespace alluvium::fluid
     std::array<double, dim>                   drive        = {}; // force on the fluid, not on grains [N/m^3 of fluid]
     const dealii::Function<dim> *body_force  = nullptr;          // [N/m^3], dim components; for manufactured solutions
     const dealii::Function<dim> *mass_source = nullptr;          // [1/s]
+
+    /** dt of du/dt [s]: infinite where that is left out. */
+    double inertia_dt() const { return discretisation.inertia ? dt : std::numeric_limits<double>::infinity(); }
+
+    /** eta of the viscous stress [Pa s]. */
+    double stress_viscosity() const { return discretisation.viscosity ? fluid.viscosity : 0.; }
   };
 } // namespace alluvium::fluid

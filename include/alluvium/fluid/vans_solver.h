@@ -55,6 +55,13 @@ namespace alluvium::fluid
       return driving.background_gradient(properties.density * gravity, space->periodic_box().length);
     }
 
+    /** What drives the fluid at @p time, on boundaries aside [N/m^3]; the driving is of that time then. */
+    dealii::Tensor<1, dim> driving_force(const double time)
+    {
+      driving.set_time(time);
+      return unsupported_weight() + driving.body_force();
+    }
+
     /** Weight of displaced fluid that no pressure gradient carries: rho g - background_gradient() [N/m^3]. */
     dealii::Tensor<1, dim> unsupported_weight() const { return properties.density * gravity - background_gradient(); }
 
@@ -152,5 +159,6 @@ namespace alluvium::fluid
     BlockVector                                  iterate, previous, residual, known, increment, product;
     LinearSolverReport                           report;
     double                                       dt_of_preconditioner = 0., pressure_datum = 0.;
+    double                                       domain_volume = 0.; // [m^2]
   };
 } // namespace alluvium::fluid

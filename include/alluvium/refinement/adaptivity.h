@@ -56,6 +56,9 @@ namespace alluvium::refinement
     /** Does a criterion look at the fluid's fields? Then a mesh may change although no grain moves. */
     bool needs_fluid() const;
 
+    /** Do all criteria look at grains alone? Then the mesh stays while these do. */
+    bool needs_grains_alone() const;
+
     /**
      * Refine the mesh of t = 0 until all criteria are met. Throws UserError if that takes more than `Max cells`, or if
      * there are in the end fewer cells than ranks. Triangles stay as they are, and are to meet the criteria by

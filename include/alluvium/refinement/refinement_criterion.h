@@ -87,5 +87,8 @@ namespace alluvium::refinement
 
     /** Does it look at the fluid's fields? */
     virtual bool needs_fluid() const { return false; }
+
+    /** Does what it wants depend on time, other than through grains and fluid? */
+    virtual bool depends_on_time() const { return false; }
   };
 } // namespace alluvium::refinement

@@ -50,6 +50,9 @@ namespace alluvium::run
     /** Grains have been taken out before a step. Collective. */
     void after_removal();
 
+    /** Energy is measured from now on as the equations have it that are solved now. */
+    void after_model_change() { after_removal(); }
+
     /** Throw a Divergence if the step that the model has taken cannot be believed. Collective. */
     void judge();
 

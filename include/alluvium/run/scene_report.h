@@ -7,11 +7,16 @@ namespace alluvium::run
   struct Model;
   class Output;
   class TimeStepControl;
+  class ModelChoice;
 
   /**
    * What the scene is, room by room, what it leaves out, and what to expect of it; the first rank writes it to
    * @p out. @p end_time of the run [s]. Collective.
    */
-  void report_scene(
-    const Model &model, const Output &output, const TimeStepControl &control, double end_time, std::ostream &out);
+  void report_scene(const Model           &model,
+                    const Output          &output,
+                    const TimeStepControl &control,
+                    const ModelChoice     &choice,
+                    double                 end_time,
+                    std::ostream          &out);
 } // namespace alluvium::run

@@ -7,13 +7,14 @@ namespace alluvium::run
 {
   struct Model;
   class Checkpoint;
+  class ModelChoice;
 
   /**
    * Build the scene that the parameters of @p model describe: domain, grains, mesh, fields at rest, and the contact
    * forces that hold the grains; or grains, mesh and fields as they are in @p from, if that is given.
-   * File names are relative to @p directory. Writes nothing. Collective.
+   * File names are relative to @p directory. @p choice may take the fluid out. Writes nothing. Collective.
    */
-  void set_up(Model &model, const std::string &directory, Checkpoint *from);
+  void set_up(Model &model, const std::string &directory, Checkpoint *from, ModelChoice &choice);
 
   /** Loads of the grains' weight alone. */
   void load_by_gravity(Model &model);
