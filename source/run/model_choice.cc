@@ -18,6 +18,9 @@ namespace alluvium::run
 
   namespace
   {
+    /** Steps in which flow and grains find each other from rest: they are iterated, and nothing is measured in them. */
+    constexpr unsigned int n_first_steps = 3;
+
     Term term_of(const std::string &name)
     {
       const auto found =
@@ -124,7 +127,7 @@ namespace alluvium::run
     terms.convection = terms.convection && is_on(Term::convection);
     terms.inertia    = terms.inertia && is_on(Term::inertia);
     terms.viscosity  = terms.viscosity && is_on(Term::viscous_stress);
-    model.coupled_step.iteration().leave_out(!is_on(Term::iteration));
+    model.coupled_step.iteration().leave_out(!is_on(Term::iteration) && model.n_steps >= n_first_steps);
     model.contacts.leave_out(model.grains_move && !is_on(Term::contacts) && model.contacts.may_be_left_out());
   }
 
@@ -167,9 +170,9 @@ namespace alluvium::run
       return r != nullptr && !r->term.on && r->term.is_asked;
     };
     constexpr unsigned int interval = 10; // steps: it costs as much as to assemble them
-    // in the first step the flow comes from rest: that is in the estimate of the start
     if (!(left_out(Term::convection) || left_out(Term::inertia) || left_out(Term::viscous_stress)) ||
-        model.n_steps < 2 || (model.n_steps > 20 && model.n_steps % interval != 0) || model.coupling.report().steady)
+        model.n_steps <= n_first_steps || (model.n_steps > 20 && model.n_steps % interval != 0) ||
+        model.coupling.report().steady)
       return;
     const fluid::FlowTerms terms = fluid::flow_terms(model.space,
                                                      model.solver.problem(),
@@ -215,7 +218,9 @@ namespace alluvium::run
         if (is_left_out(Term::rotation) && is_on(Term::friction))
           switch_on(Term::rotation, 1., "friction turns grains", model, switched);
       }
-    if (model.has_fluid && model.grains_move && is_left_out(Term::iteration))
+    if (model.n_steps == n_first_steps)
+      model.coupled_step.iteration().leave_out(!is_on(Term::iteration));
+    else if (model.n_steps > n_first_steps && model.has_fluid && model.grains_move && is_left_out(Term::iteration))
       {
         const auto  &iteration = model.coupled_step.iteration();
         const double estimate  = iteration_estimate(iteration.defect_left(),

@@ -140,7 +140,8 @@ namespace alluvium::run
       return estimated(Term::iteration,
                        bound,
                        iteration_estimate(0.5 * std::sqrt(s.packing) * path, s.settling_speed, s.dt, s.diameter),
-                       "grains go " + rounded(path) + " diameters in a step, packed " + rounded(s.packing));
+                       "grains go " + rounded(path) + " diameters in a step, packed " + rounded(s.packing) +
+                         "; the first steps have it");
     }
 
     TermEstimate contacts(const SceneScales &s)
@@ -201,8 +202,15 @@ namespace alluvium::run
 
   std::vector<TermEstimate> estimate_terms(const SceneScales &s, const double bound, const std::vector<Term> &keep)
   {
-    const TermEstimate        of_fluid = fluid(s, bound);
-    std::vector<TermEstimate> terms    = {of_fluid};
+    const auto keep_if_asked = [&](TermEstimate &t) {
+      if (std::find(keep.begin(), keep.end(), t.term) == keep.end() || t.on || !t.is_asked)
+        return;
+      t.on      = true;
+      t.because = "kept (Automatic model/Keep); " + t.because;
+    };
+    TermEstimate of_fluid = fluid(s, bound);
+    keep_if_asked(of_fluid); // the other terms ask whether there is one
+    std::vector<TermEstimate> terms = {of_fluid};
     if (of_fluid.on)
       {
         terms.push_back(convection(s, bound));
@@ -243,11 +251,7 @@ namespace alluvium::run
               "a step is " + rounded(path) + " sub-steps long at the speed of settling; each step is asked")
         : on(Term::substeps, "each step is asked"));
     for (TermEstimate &t : terms)
-      if (std::find(keep.begin(), keep.end(), t.term) != keep.end() && !t.on && t.is_asked)
-        {
-          t.on      = true;
-          t.because = "kept (Automatic model/Keep); " + t.because;
-        }
+      keep_if_asked(t);
     return terms;
   }
 } // namespace alluvium::run

@@ -166,7 +166,9 @@ namespace alluvium::run
         line("fluid",
              "volume-averaged Navier-Stokes, " + std::to_string(m.triangulation->n_global_active_cells()) + " cells, " +
                std::to_string(m.space.n_dofs()) + " unknowns" +
-               (m.solver.discretisation.convection ? "" : "; without convection, as asked"));
+               (m.solver.discretisation.convection
+                  ? ""
+                  : std::string("; without convection") + (choice.automatic() ? "" : ", as asked")));
         line("coupling",
              std::to_string(m.coupling.report().n_pieces) + " pieces of grains, void fraction " +
                in_digits(m.coupling.report().eps_min) + " to " + in_digits(m.coupling.report().eps_max) +

@@ -112,11 +112,20 @@ namespace alluvium::run
       return drive;
     }
 
-    /** Drag over weight of grains at speed @p v, if @p terminal is where they are the same; an upper bound. */
-    double drag_at(const double v, const double terminal)
+    /** Drag of grains that slip at @p speed in a void fraction of @p eps, over their weight. */
+    double drag_over_weight(const Model &m, const double eps, const double speed)
     {
-      const double x = terminal > 0. ? v / terminal : SceneScales::infinity;
-      return x > 1. ? x * x : x; // between the first and the second power, whichever is more
+      const auto &fluid = m.solver.properties;
+      double      drag = 0., weight = 0.;
+      for (std::size_t i = 0; i < m.grains.n(); ++i)
+        if (!std::isinf(m.grains.mass[i]))
+          {
+            const double r = m.grains.fluid_radius[i];
+            drag += grains::disc_volume(r) * speed / eps *
+                    m.coupling.drag_law().gamma({eps, speed, 2. * r, fluid.density, fluid.viscosity});
+            weight += m.grains.mass[i] * m.gravity_size();
+          }
+      return weight > 0. ? drag / weight : SceneScales::infinity;
     }
   } // namespace
 
@@ -185,11 +194,9 @@ namespace alluvium::run
       {
         constexpr double dilation = 0.1; // of the speed of a fall: how fast the fluid goes through a bed that shears
         const double     eps      = coupling::inner_void_fraction(g);
-        const coupling::HomogeneousBed bed{g, m.solver.properties, eps};
-        const double                   terminal = alone.fluidisation_velocity(law, m.gravity_size());
-        s.drag_of_fall                          = std::max(drag_at(fall, terminal),
-                                  drag_at(dilation * fall, bed.fluidisation_velocity(law, m.gravity_size()) / eps));
-        s.settling_speed                        = terminal > 0. ? std::max(terminal, fastest) : fall;
+        const double     terminal = alone.fluidisation_velocity(law, m.gravity_size());
+        s.drag_of_fall            = std::max(drag_over_weight(m, 1., fall), drag_over_weight(m, eps, dilation * fall));
+        s.settling_speed          = terminal > 0. ? std::max(terminal, fastest) : fall;
       }
     if (!m.triangulation) // what follows needs a mesh
       return s;

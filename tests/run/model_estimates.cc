@@ -227,7 +227,11 @@ TEST(ModelEstimates, FluidGoesWhereItNeitherLiftsNorDrags)
   s.drag_of_fall = 5e-4;
   s.is_driven    = true;
   EXPECT_TRUE(of(Term::fluid, s).on);
-  s.is_driven     = false;
+  s.is_driven = false;
+  // with the fluid that is kept come its terms
+  s.is_driven = false;
+  EXPECT_TRUE(of(Term::fluid, s, {Term::fluid}).on);
+  EXPECT_TRUE(of(Term::two_way_coupling, s, {Term::fluid}).on);
   s.density_ratio = 500.; // buoyancy
   EXPECT_TRUE(of(Term::fluid, s).on);
 }
