@@ -219,7 +219,7 @@ namespace alluvium::run
     lines("boundaries", boundaries(m));
     lines("walls", other_walls(m));
     line("contacts",
-         m.grains_move ? std::to_string(m.contacts.walls().size()) + " walls; " + m.contacts.sharing(m.grains.n())
+         m.grains_move ? std::to_string(m.contacts.walls().size()) + " walls; " + m.contacts.partitioning(m.grains.n())
                        : "left out: all grains are fixed");
     line("observers", output.observers());
     line("costs",

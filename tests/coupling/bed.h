@@ -202,7 +202,7 @@ namespace bed
       coupling.parse_parameters();
       coupling.settings.filter_radius = settings.filter;
       coupling.settings.shape =
-        settings.smooth ? coupling::OverlapSettings::Shape::smooth : coupling::OverlapSettings::Shape::even;
+        settings.smooth ? coupling::OverlapSettings::Shape::parabolic : coupling::OverlapSettings::Shape::top_hat;
       coupling.settings.rule =
         settings.moments ? coupling::OverlapSettings::Rule::moments : coupling::OverlapSettings::Rule::centroid;
       solver.discretisation.lumped_drag = settings.lumped;

@@ -38,9 +38,9 @@ namespace alluvium::contacts
    * With `Contact model = soft-sphere`, SoftSpheres does all this instead.
    *
    * Arrays are replicated: the same on all ranks before and after a step. With set_communicator(), ranks share the work
-   * (ContactShare); without, or where there is little of it, each does all. The same input gives the same bits either
-   * way, on any number of ranks. When the last contact search was decides in which order contacts are solved, which
-   * shows within the tolerance.
+   * (ContactSubdomain); without, or where there is little of it, each does all. The same input gives the same bits
+   * either way, on any number of ranks. When the last contact search was decides in which order contacts are solved,
+   * which shows within the tolerance.
    */
   class ContactStepper
   {
@@ -68,7 +68,7 @@ namespace alluvium::contacts
     void set_communicator(MPI_Comm communicator);
 
     /** In words, who works on the contacts of @p n_grains. */
-    std::string sharing(std::size_t n_grains) const;
+    std::string partitioning(std::size_t n_grains) const;
 
     /** What this rank has sent so far for the sake of contacts. */
     ContactTraffic traffic() const;
