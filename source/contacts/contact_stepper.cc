@@ -268,7 +268,7 @@ namespace alluvium::contacts
     const unsigned int n_ranks = implementation->local.n_ranks();
     if (n_ranks == 1)
       return "on one rank";
-    if (implementation->shares(n_grains))
+    if (implementation->is_partitioned(n_grains))
       return "shared by " + std::to_string(n_ranks) + " ranks";
     return std::string("not shared, all ") + std::to_string(n_ranks) + " ranks do the same: " +
            (implementation->model != "non-smooth"          ? "soft spheres"

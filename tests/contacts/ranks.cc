@@ -122,7 +122,7 @@ namespace
       const double dt, const int n_steps, const bool messages = true, const std::function<void(int)> &before = [](int) {
       })
     {
-      together.stepper.settings().least_share = 1;
+      together.stepper.settings().least_grains_a_rank = 1;
       together.stepper.set_communicator(MPI_COMM_WORLD);
       for (int step = 0; step < n_steps && !testing::Test::HasFatalFailure(); ++step)
         {
