@@ -77,7 +77,7 @@ namespace alluvium::deposits
 
     std::vector<NewGrain> make(const DepositContext &context) const override
     {
-      check_user(d_min > 0., "The deposit 'settled bed' needs a positive 'Smallest diameter'.");
+      check_diameter("settled bed", "Smallest diameter", d_min);
       check_user(n_wanted > 0 || height > 0.,
                  "The deposit 'settled bed' has no grains: set its 'Number of grains' or 'Bed height'.");
       const DepositBox box = parse_deposit_box(box_text, context);

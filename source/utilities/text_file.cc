@@ -60,8 +60,8 @@ namespace alluvium
     if (in.peek() != std::ifstream::traits_type::eof())
       all << in.rdbuf();
     check_user(!in.bad() && !all.fail(), "Cannot read the " + named + ".");
-    note_input(file);
     std::string text = all.str();
+    note_input(file, digest_of(text));
     strip_byte_order_mark(text, "The " + named);
     check_user(text.find('\0') == std::string::npos, "The " + named + " is no text: it holds zero bytes.");
     if (text.find('\n') == std::string::npos) // an old Macintosh's line ends
