@@ -123,7 +123,7 @@ namespace alluvium
                "Output/Restart: the checkpoint is of t = " + in_digits(model.time) +
                  " s, and Time/End time = " + in_digits(end_time) + " s has passed: nothing is left to do.");
     run::check_boundaries(model, end_time);
-    run::check_walls(model);
+    run::check_walls(model, end_time);
     run::check_poles(model, end_time);
     std::vector<double> intervals = output.intervals();
     intervals.push_back(guard.interval_of_checkpoints());

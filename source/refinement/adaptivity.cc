@@ -113,6 +113,17 @@ namespace alluvium::refinement
 
 
   template <int dim>
+  std::string Adaptivity<dim>::remark_on_limits(const RefinementContext &context) const
+  {
+    for (const RefinementCriterion *criterion : criteria.all())
+      if (const double d = context.grain_diameter; d > 0. && tolerance * criterion->coarsest_size(context) < finest * d)
+        return "Mesh refinement/Criteria ask for cells of " + in_digits(criterion->coarsest_size(context) / d) +
+               " mean grain diameters, but 'Finest cell size' is " + in_digits(finest) + ": no smaller ones are made";
+    return "";
+  }
+
+
+  template <int dim>
   void Adaptivity<dim>::check_until(const double end_time, const RefinementContext &context) const
   {
     for (RefinementCriterion *criterion : criteria.all())

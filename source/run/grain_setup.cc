@@ -164,7 +164,8 @@ namespace alluvium::run
                                           may_write,
                                           &warnings,
                                           {},
-                                          domain.is_rectangle() ? std::vector<grains::WallSegment>() : domain.sides()});
+                                          domain.is_rectangle() ? std::vector<grains::WallSegment>() : domain.sides(),
+                                          !fixed_grains});
                           for (const std::string &warning : warnings)
                             std::cerr << "alluvium: warning: " << warning << std::endl;
                           std::vector<double> flat;

@@ -184,6 +184,9 @@ namespace alluvium::run
                                : m.adaptivity.coarse_size(m.refinement_context());
         m.touched.assign(m.grains.n(), 0);
         check_scene_size(m);
+        if (const std::string remark = m.adaptivity.remark_on_limits(m.refinement_context());
+            m.has_fluid && !remark.empty())
+          m.warnings.add(remark, m.time);
         if (m.is_root)
           for (const InputFile &input : noted_inputs())
             if (std::filesystem::path(input.path).extension() == ".csv")

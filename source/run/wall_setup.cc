@@ -149,6 +149,8 @@ namespace alluvium::run
                      read_numbers(ends.substr(arrow + 2), b) && a.size() == 2 && b.size() == 2,
                    extra_name + ": expected `x1, y1 -> x2, y2; ...` or `name: x1, y1 -> x2, y2; ...` in metres, got '" +
                      item + "'.");
+        check_user(colon == std::string::npos || !Utilities::trim(item.substr(0, colon)).empty(),
+                   extra_name + ": '" + item + "' has no name before its ':'.");
         const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
         check_user(length >= magnitudes::smallest_length && length <= magnitudes::largest_length,
                    extra_name + ": the wall '" + item + "' " +

@@ -84,7 +84,7 @@ namespace alluvium::scene
       void scan_line(std::string text, const std::string &file_name, const unsigned int number, const std::size_t depth)
       {
         const std::string origin = file_name + ":" + std::to_string(number);
-        text                     = trim(text.substr(0, text.find('#')));
+        text                     = trim(with_plain_blanks(text.substr(0, text.find('#'))));
         if (text.empty())
           return;
 
@@ -220,7 +220,7 @@ namespace alluvium::scene
           if (!nearest.empty())
             text += " Did you mean '" + nearest + "'?";
         }
-      return text;
+      return text + look_alikes_in(statement.value);
     }
   } // namespace
 

@@ -1,4 +1,5 @@
 #include <alluvium/utilities/expression.h>
+#include <alluvium/utilities/text_file.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/function_parser.h>
@@ -103,7 +104,8 @@ namespace alluvium
         for (const auto &[name, value] : constants)
           names += ", " + name;
         throw UserError(where + ": cannot understand '" + text + "'; it may use x, y, t" + names + "." +
-                        (has_decimal_comma(text) ? " Decimals are written with a point, not a comma." : ""));
+                        (has_decimal_comma(text) ? " Decimals are written with a point, not a comma." : "") +
+                        look_alikes_in(text));
       }
     return result;
   }
