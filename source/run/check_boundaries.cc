@@ -44,14 +44,14 @@ namespace alluvium::run
     }
 
     /** The height of a bed, where there is none. */
-    void check_bed_height(const Model &m)
+    void look_for_bed_height(Model &m)
     {
-      if (!m.initial_bed.empty())
-        return;
-      for (const auto &[id, condition] : m.boundary_conditions.all())
-        check_user(condition.of_plugin || !mentions(condition.text, "L"),
-                   condition.described() + ": '" + condition.text +
-                     "' uses L, the height of the bed at t = 0, but the grains form no bed.");
+      if (m.initial_bed.empty())
+        for (const auto &[id, condition] : m.boundary_conditions.all())
+          if (!condition.of_plugin && mentions(condition.text, "L"))
+            m.warnings.add(condition.described() + ": '" + condition.text +
+                             "' uses L, the height of the bed at t = 0, which is 0: the grains form no bed",
+                           m.time);
     }
 
     /** A velocity that depends on place and is zero wherever its boundary is. */
@@ -134,7 +134,7 @@ namespace alluvium::run
   {
     if (!m.has_fluid)
       return;
-    check_bed_height(m);
+    look_for_bed_height(m);
     auto      &conditions = m.boundary_conditions;
     const bool closed     = !conditions.has_pressure();
     const bool natural    = std::any_of(conditions.all().begin(), conditions.all().end(), [](const auto &entry) {
