@@ -6,6 +6,7 @@
 #include <alluvium/run/mesh_changes.h>
 #include <alluvium/run/model.h>
 #include <alluvium/run/output.h>
+#include <alluvium/run/poles.h>
 #include <alluvium/run/run_guard.h>
 #include <alluvium/run/scene_report.h>
 #include <alluvium/run/set_up.h>
@@ -104,7 +105,7 @@ namespace alluvium
     for (const auto &p : declared.parameters())
       model.parameters.emplace_back(scene::to_string(p.path), p.value);
     const auto timer = model.timers.scope("set-up");
-    time_step.parse_parameters();
+    time_step.parse_parameters(end_time);
     const std::string remark = output.check_folder(restart, !writes);
     if (!remark.empty())
       model.warnings.print("a run would be refused: " + remark);
@@ -122,7 +123,8 @@ namespace alluvium
                "Output/Restart: the checkpoint is of t = " + in_digits(model.time) +
                  " s, and Time/End time = " + in_digits(end_time) + " s has passed: nothing is left to do.");
     run::check_boundaries(model, end_time);
-    run::check_walls(model);
+    run::check_walls(model, end_time);
+    run::check_poles(model, end_time);
     std::vector<double> intervals = output.intervals();
     intervals.push_back(guard.interval_of_checkpoints());
     time_step.prepare(end_time, intervals);

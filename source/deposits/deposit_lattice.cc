@@ -31,7 +31,7 @@ namespace alluvium::deposits
 
     std::vector<NewGrain> make(const DepositContext &context) const override
     {
-      check_user(diameter > 0., "The deposit 'lattice' needs a positive 'Diameter'.");
+      check_diameter("lattice", "Diameter", diameter);
       const double a = spacing > 0. ? spacing : diameter * std::sqrt(M_PI / 4. / area_fraction);
       check_user(std::isfinite(a), "The deposit 'lattice' needs a positive 'Area fraction' or 'Spacing'.");
       check_user(a >= diameter * (1. - 1e-12),

@@ -33,7 +33,7 @@ namespace alluvium::deposits
 
     std::vector<NewGrain> make(const DepositContext &context) const override
     {
-      check_user(d_min > 0., "The deposit 'random suspension' needs a positive 'Smallest diameter'.");
+      check_diameter("random suspension", "Smallest diameter", d_min);
       const DepositBox  box = parse_deposit_box(box_text, context);
       const DepositRoom room(context, box, 0.5 * d_min, 0.5 * d_min * ratio + gap);
       const double      area = room.area();

@@ -6,6 +6,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -39,6 +40,28 @@ namespace alluvium::fluid
   bool BoundaryConditions<dim>::Condition::may_depend_on(const std::string &variable) const
   {
     return text.empty() || of_plugin || mentions(text, variable);
+  }
+
+
+  template <int dim>
+  bool BoundaryConditions<dim>::Condition::may_jump() const
+  {
+    // components are divided by '|', which is no operator here
+    constexpr std::array<const char *, 11> jumping = {
+      {"if", "rint", "int", "floor", "ceil", "sign", "abs", "min", "max", "rand", "rand_seed"}};
+    return text.empty() || of_plugin || text.find_first_of("<>?=!&%") != std::string::npos ||
+           std::any_of(jumping.begin(), jumping.end(), [&](const char *word) { return mentions(text, word); });
+  }
+
+
+  template <int dim>
+  std::string BoundaryConditions<dim>::Condition::described() const
+  {
+    return std::string("Boundary conditions/") +
+           (of_plugin                ? "Plug-ins"
+            : kind == Kind::pressure ? "Pressure"
+                                     : "Velocity") +
+           ": boundary '" + name + "'";
   }
 
 
@@ -242,11 +265,7 @@ namespace alluvium::fluid
     if (!std::isfinite(value))
       {
         std::ostringstream text;
-        text << "Boundary conditions/"
-             << (condition.of_plugin                ? "Plug-ins"
-                 : condition.kind == Kind::pressure ? "Pressure"
-                                                    : "Velocity")
-             << ": boundary '" << condition.name << "': '" << condition.text << "' is " << value
+        text << condition.described() << ": '" << condition.text << "' is " << value
              << " at x = " << point[0] << ", y = " << point[1] << ", t = " << time << "; expected a finite number.";
         throw UserError(text.str());
       }

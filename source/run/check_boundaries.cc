@@ -1,4 +1,5 @@
 #include <alluvium/run/check_boundaries.h>
+#include <alluvium/utilities/expression.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/mpi.h>
@@ -40,6 +41,17 @@ namespace alluvium::run
       text << ", a difference of " << std::abs(sum)
            << ". Give an outlet under 'Pressure', or velocities whose fluxes add up to zero.";
       throw UserError(text.str());
+    }
+
+    /** The height of a bed, where there is none. */
+    void look_for_bed_height(Model &m)
+    {
+      if (m.initial_bed.empty())
+        for (const auto &[id, condition] : m.boundary_conditions.all())
+          if (!condition.of_plugin && mentions(condition.text, "L"))
+            m.warnings.add(condition.described() + ": '" + condition.text +
+                             "' uses L, the height of the bed at t = 0, which is 0: the grains form no bed",
+                           m.time);
     }
 
     /** A velocity that depends on place and is zero wherever its boundary is. */
@@ -122,6 +134,7 @@ namespace alluvium::run
   {
     if (!m.has_fluid)
       return;
+    look_for_bed_height(m);
     auto      &conditions = m.boundary_conditions;
     const bool closed     = !conditions.has_pressure();
     const bool natural    = std::any_of(conditions.all().begin(), conditions.all().end(), [](const auto &entry) {

@@ -184,10 +184,13 @@ namespace alluvium::run
                                : m.adaptivity.coarse_size(m.refinement_context());
         m.touched.assign(m.grains.n(), 0);
         check_scene_size(m);
+        if (const std::string remark = m.adaptivity.remark_on_limits(m.refinement_context());
+            m.has_fluid && !remark.empty())
+          m.warnings.add(remark, m.time);
         if (m.is_root)
-          for (const std::string &path : noted_inputs())
-            if (std::filesystem::path(path).extension() == ".csv")
-              m.inputs[path] = digest_of_file(path);
+          for (const InputFile &input : noted_inputs())
+            if (std::filesystem::path(input.path).extension() == ".csv")
+              m.inputs[input.path] = input.digest;
       }
     double largest = 0.;
     for (const double r : m.grains.radius)

@@ -1,14 +1,8 @@
 #pragma once
 
+#include <alluvium/coupling/declarations.h>
 #include <alluvium/coupling/drag_law.h>
 #include <alluvium/grains/grain_arrays.h>
-
-namespace alluvium::fluid
-{
-  struct FluidProperties;
-  template <int dim>
-  class FluidSpace;
-} // namespace alluvium::fluid
 
 namespace alluvium::coupling
 {
@@ -43,8 +37,6 @@ namespace alluvium::coupling
     /** Sum of V gamma over the grains at interstitial slip @p u [N s/m^2]. */
     double resistance(const DragLaw &law, const double u) const;
   };
-
-  class Coupling;
 
   /**
    * Permeability [m^2] of the bed of @p area [m^2] as the run sees it, with the void fraction at every piece of a

@@ -35,6 +35,7 @@ namespace alluvium::deposits
     std::vector<std::string>        *warnings    = nullptr; // where to put what the user should know, if anywhere
     geometry::Upright                upright     = {};      // how all this has been turned; parameters have not
     std::vector<grains::WallSegment> sides       = {};      // the whole boundary, if it is not the bounding box
+    bool                             moves       = true;    // will the grains move?
   };
 
   /**

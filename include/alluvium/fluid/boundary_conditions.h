@@ -46,6 +46,12 @@ namespace alluvium::fluid
 
       /** May the value depend on @p variable, x, y or t? A formula says so, others do not. */
       bool may_depend_on(const std::string &variable) const;
+
+      /** May the value have jumps? As above. */
+      bool may_jump() const;
+
+      /** The parameter that gives the value, and the boundary, for messages. */
+      std::string described() const;
     };
 
     void add_parameters(dealii::ParameterHandler &prm);

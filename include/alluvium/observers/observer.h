@@ -1,5 +1,6 @@
 #pragma once
 
+#include <alluvium/coupling/declarations.h>
 #include <alluvium/grains/bed_faces.h>
 #include <alluvium/grains/leavers.h>
 #include <alluvium/observers/mesh_change.h>
@@ -23,21 +24,6 @@ namespace alluvium::contacts
   struct ContactReport;
   class ContactStepper;
 } // namespace alluvium::contacts
-
-namespace alluvium::coupling
-{
-  class Coupling;
-}
-
-namespace alluvium::fluid
-{
-  template <int dim>
-  class BoundaryConditions;
-  template <int dim>
-  class FluidSpace;
-  template <int dim>
-  class VansSolver;
-} // namespace alluvium::fluid
 
 namespace alluvium::grains
 {

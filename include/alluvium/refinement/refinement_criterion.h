@@ -85,6 +85,9 @@ namespace alluvium::refinement
     /** Is coarsest_size() what it wants everywhere and always? */
     virtual bool is_uniform() const { return false; }
 
+    /** Throws UserError if it will want what is no size until @p end_time [s]. */
+    virtual void check_until(const double, const RefinementContext &) {}
+
     /** Does it look at the fluid's fields? */
     virtual bool needs_fluid() const { return false; }
   };
