@@ -46,11 +46,10 @@ namespace alluvium::fluid
   void BoundaryConditions<dim>::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Boundary conditions");
-    if (kinds.empty())
-      for (const auto &[name, entry] : Registry<BoundaryKind<dim>>::entries())
-        kinds.emplace(name, boundary_kind<dim>(name));
-    for (const auto &[name, kind] : kinds)
+    kinds.create();
+    for (const auto &[name, kind] : kinds.all())
       {
+        kind->parameter = name;
         prm.add_parameter(name, boundaries[name], Registry<BoundaryKind<dim>>::entries().at(name).prose);
         kind->add_parameters(prm);
       }
@@ -85,37 +84,39 @@ namespace alluvium::fluid
       "In a box closed all around, fix the pressure at one node (its level is arbitrary there). Where a "
       "boundary has a pressure this does nothing.");
     std::string prose = "Boundaries whose pressure or velocity a plug-in gives, as `name: plug-in; name: plug-in`. ";
-    if (plugins.empty())
-      for (const auto &[name, entry] : Registry<BoundaryPlugin>::entries())
-        plugins.emplace(name, entry.create());
+    plugins.create();
     prose += plugins.empty() ? "None is known; see Additional shared libraries." : "Known are:";
-    for (const auto &[name, plugin] : plugins)
+    for (const auto &[name, plugin] : plugins.all())
       prose += "\n'" + name + "': " + Registry<BoundaryPlugin>::entries().at(name).prose;
     prm.add_parameter("Plug-ins", by_plugins, prose);
-    for (const auto &[name, plugin] : plugins)
-      {
-        prm.enter_subsection("Plug-ins: " + name);
-        plugin->add_parameters(prm);
-        prm.leave_subsection();
-      }
+    plugins.add_parameters(prm, "Plug-ins");
     prm.leave_subsection();
+  }
+
+
+  template <int dim>
+  void BoundaryConditions<dim>::parse_parameters()
+  {
+    for (const auto &[name, list] : boundaries)
+      if (!list.empty())
+        kinds.parse_parameters(name);
+    for (const auto &[boundary, plugin] : plugins_by_boundary())
+      plugins.parse_parameters(plugin);
   }
 
 
   template <int dim>
   std::vector<std::pair<std::string, std::string>> BoundaryConditions<dim>::plugins_by_boundary() const
   {
-    const std::string where = "Boundary conditions/Plug-ins: ";
-    std::string       known;
-    for (const auto &[name, plugin] : plugins)
-      known += (known.empty() ? "" : ", ") + name;
+    const std::string                                where = "Boundary conditions/Plug-ins: ";
+    const std::string                                known = plugins.names(", ");
     std::vector<std::pair<std::string, std::string>> result;
     for (const auto &item : Utilities::split_string_list(by_plugins, ';'))
       {
         const auto colon = item.find(':');
         check_user(colon != std::string::npos, where + "expected `name: plug-in`, got '" + item + "'.");
         const std::string plugin = Utilities::trim(item.substr(colon + 1));
-        check_user(plugins.count(plugin) > 0,
+        check_user(plugins.contains(plugin),
                    where + "there is no boundary condition named '" + plugin + "'; " +
                      (known.empty() ? "none is known. Is its library under 'Additional shared libraries'?"
                                     : "known are: " + known + "."));
@@ -152,7 +153,7 @@ namespace alluvium::fluid
         return parse_expressions(where, components, constants);
       };
 
-    for (const auto &[parameter, kind] : kinds)
+    for (const auto &[parameter, kind] : kinds.all())
       for (const auto &item : Utilities::split_string_list(boundaries.at(parameter), kind->n_values() == 0 ? ',' : ';'))
         if (kind->n_values() == 0)
           add(parameter, item, {kind, item, nullptr});
@@ -170,9 +171,9 @@ namespace alluvium::fluid
 
     for (const auto &[name, plugin_name] : plugins_by_boundary())
       {
-        const auto &plugin = plugins.at(plugin_name);
+        const auto &plugin = plugins.get(plugin_name);
         plugin->initialize(constants);
-        const auto &kind = kinds.at(plugin->gives() == BoundaryPlugin::Gives::pressure ? "Pressure" : "Velocity");
+        const auto &kind = kinds.get(plugin->gives() == BoundaryPlugin::Gives::pressure ? "Pressure" : "Velocity");
         Condition   condition{kind, name, nullptr, plugin_name};
         condition.value     = std::make_shared<PluginFunction>(plugin, kind->n_values());
         condition.of_plugin = true;
@@ -188,13 +189,10 @@ namespace alluvium::fluid
         conditions.at(it->second).add_hydrostatic = true;
       }
 
-    std::string parameters;
-    for (const auto &[name, kind] : kinds)
-      parameters += "'" + name + "', ";
     for (const auto &[name, id] : ids)
       check_user(conditions.count(id) == 1,
-                 "Boundary conditions: boundary '" + name + "' has none. Name it under one of " + parameters +
-                   "'Plug-ins'.");
+                 "Boundary conditions: boundary '" + name + "' has none. Name it under one of " +
+                   kinds.names(", ", true) + ", 'Plug-ins'.");
     check_user(
       pin_pressure || fixes_pressure(),
       "Boundary conditions: the pressure is fixed nowhere. Give it on a boundary under 'Pressure', or, in a box closed "

@@ -40,6 +40,9 @@ namespace alluvium::fluid
 
     void add_parameters(dealii::ParameterHandler &prm);
 
+    /** After the file was read; see Plugin. Throws UserError. */
+    void parse_parameters();
+
     /**
      * Resolve the parsed names and expressions. @p ids maps boundary names to ids; @p constants are names that
      * expressions may use (rho, g, H, L, pi, ...). Throws UserError for a name that the mesh has not, a boundary with
@@ -94,9 +97,9 @@ namespace alluvium::fluid
 
     std::string hydrostatic, by_plugins;
 
-    std::map<std::string, std::shared_ptr<BoundaryKind<dim>>> kinds;      // all that are registered
-    std::map<std::string, std::string>                        boundaries; // of each of them, as the user wrote it
-    std::map<std::string, std::shared_ptr<BoundaryPlugin>>    plugins;    // all that are registered
+    PluginSet<BoundaryKind<dim>>       kinds;
+    std::map<std::string, std::string> boundaries; // of each kind, as the user wrote it
+    PluginSet<BoundaryPlugin>          plugins;
 
     std::string given_velocity     = "superficial";
     std::string pressure_on_inflow = "static";

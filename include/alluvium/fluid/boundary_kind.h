@@ -26,7 +26,7 @@ namespace alluvium::fluid
    * velocity is stronger than u = 0, and this stronger than u.n = 0; but at corners a wall holds its end.
    */
   template <int dim>
-  class BoundaryKind
+  class BoundaryKind : public Plugin
   {
   public:
     /** What is held of the velocity at the boundary's nodes. */
@@ -38,10 +38,8 @@ namespace alluvium::fluid
       given            // u is the value; the continuity equation gets its flux, exact on cells of any size
     };
 
-    virtual ~BoundaryKind() = default;
 
     /** Declare what the kind has besides its boundaries, in the section "Boundary conditions". */
-    virtual void add_parameters(dealii::ParameterHandler &) {}
 
     virtual Velocity velocity() const = 0;
 
