@@ -227,7 +227,7 @@ namespace alluvium::fluid
              << (is_finite ? condition.kind->expected() : "a finite number") << '.';
         throw UserError(text.str());
       }
-    if (condition.add_hydrostatic)
+    if (condition.add_hydrostatic && component == 0)
       value += hydrostatic_gradient * (point - hydrostatic_origin);
     return value;
   }

@@ -8,7 +8,7 @@ namespace alluvium::fluid
   {
     /**
      * A wall along which fluid slips the faster the more it is sheared (Navier 1823): u.n = 0, and the tangential
-     * velocity is the slip length times du_t/dn. So the wall's traction is -eta/length u_t.
+     * velocity is the slip length times its derivative towards the inside. So the wall's traction is -eta/length u_t.
      */
     class NavierSlip : public BoundaryKind<2>
     {
