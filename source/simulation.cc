@@ -105,7 +105,9 @@ namespace alluvium
     for (const auto &p : declared.parameters())
       model.parameters.emplace_back(scene::to_string(p.path), p.value);
     const auto timer = model.timers.scope("set-up");
+    model.parse_parameters();
     time_step.parse_parameters(end_time);
+    output.parse_parameters();
     const std::string remark = output.check_folder(restart, !writes);
     if (!remark.empty())
       model.warnings.print("a run would be refused: " + remark);

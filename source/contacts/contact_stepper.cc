@@ -47,6 +47,13 @@ namespace alluvium::contacts
           return false;
       return true;
     }
+
+    void refuse_with_soft_spheres(const bool asks_for_more)
+    {
+      check_user(!asks_for_more,
+                 "Contacts/Contact model: soft spheres know neither rolling friction nor cohesion, and of contact laws "
+                 "only Coulomb's.");
+    }
   } // namespace
 
 
@@ -142,9 +149,7 @@ namespace alluvium::contacts
     local.repeat_search(grains, loads, is_partitioned(n));
     if (model == "soft-sphere")
       {
-        check_user(!materials.rolls && !materials.law && !cohesion,
-                   "Contacts/Contact model: soft spheres know neither rolling friction nor cohesion, and of contact "
-                   "laws only Coulomb's.");
+        refuse_with_soft_spheres(materials.rolls || materials.law || cohesion);
         return soft_spheres.advance(grains,
                                     loads,
                                     dt,
@@ -221,6 +226,15 @@ namespace alluvium::contacts
       prm, "Cohesion", "none", "What attracts grains, and grains and walls.");
   }
 
+  void ContactStepper::parse_parameters()
+  {
+    implementation->choice.parse_parameters();
+    implementation->law_choice.parse_parameters();
+    implementation->cohesion_choice.parse_parameters();
+    if (implementation->model == "soft-sphere")
+      refuse_with_soft_spheres(implementation->acting_law() || implementation->acting_cohesion());
+  }
+
   ContactSettings &ContactStepper::settings()
   {
     return implementation->settings;
@@ -228,7 +242,9 @@ namespace alluvium::contacts
 
   void ContactStepper::set_walls(std::vector<grains::WallSegment> walls)
   {
-    make_materials(settings(), walls);
+    const ContactMaterials materials = make_materials(settings(), walls);
+    if (implementation->model == "soft-sphere")
+      refuse_with_soft_spheres(materials.rolls);
     implementation->local.geometry.walls.set(std::move(walls));
     implementation->forget();
   }

@@ -75,11 +75,15 @@ namespace alluvium::deposits
 
     bool falls() const override { return true; }
 
-    std::vector<NewGrain> make(const DepositContext &context) const override
+    void parse_parameters() override
     {
       check_diameter("settled bed", "Smallest diameter", d_min);
       check_user(n_wanted > 0 || height > 0.,
                  "The deposit 'settled bed' has no grains: set its 'Number of grains' or 'Bed height'.");
+    }
+
+    std::vector<NewGrain> make(const DepositContext &context) const override
+    {
       const DepositBox box = parse_deposit_box(box_text, context);
       check_user(box.width() > 2. * d_min * ratio, "The deposit 'settled bed': its box is narrower than two grains.");
       check_user(!box.periodic[0] || box.width() > 4. * d_min * ratio,

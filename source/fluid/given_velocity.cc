@@ -171,7 +171,7 @@ namespace alluvium::fluid
   {
     std::map<types::boundary_id, double> result;
     for (const auto &[id, condition] : conditions.all())
-      if (condition.kind == BoundaryConditions<dim>::Kind::velocity)
+      if (condition.kind->velocity() == BoundaryKind<dim>::Velocity::given)
         result[id] = 0.;
     const auto &faces = space.boundary().inflow_faces();
     for (std::size_t i = 0; i < fluxes.size(); ++i)

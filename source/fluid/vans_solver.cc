@@ -1,4 +1,4 @@
-#include <alluvium/fluid/open_boundary_terms.h>
+#include <alluvium/fluid/open_boundary_flow.h>
 #include <alluvium/fluid/vans_solver.h>
 #include <alluvium/utilities/magnitudes.h>
 
@@ -135,7 +135,8 @@ namespace alluvium::fluid
                                                                    pressure_deficits(boundary_conditions, iterate),
                                                                    given.node_values(),
                                                                    iterate);
-    return same_values && (!has_begun || (drive() == current.drive && background_gradient() == latest_gradient));
+    return same_values && !boundary_conditions.terms_depend_on_time() &&
+           (!has_begun || (drive() == current.drive && background_gradient() == latest_gradient));
   }
 
 
@@ -165,11 +166,14 @@ namespace alluvium::fluid
     linear_solver.scales.inertia   = properties.density / current.dt;
     linear_solver.scales.viscosity = properties.viscosity;
     update_given(boundary_conditions, *current.void_fraction);
-    current.given_fluxes = &given.face_fluxes();
-    current.drive        = drive();
-    latest_gradient      = background_gradient();
-    has_begun            = true;
-    boundary_fluxes      = given.boundary_fluxes(*space, boundary_conditions);
+    current.boundary_conditions = &boundary_conditions;
+    current.given_fluxes        = &given.face_fluxes();
+    current.drive               = drive();
+    current.background_gradient = background_gradient();
+    current.pressure_datum      = pressure_datum;
+    latest_gradient             = background_gradient();
+    has_begun                   = true;
+    boundary_fluxes             = given.boundary_fluxes(*space, boundary_conditions);
     space->boundary().apply_boundary_values(boundary_conditions,
                                             background_gradient(),
                                             pressure_datum,

@@ -100,6 +100,7 @@ namespace alluvium::observers
     Energy,
     "energy",
     "The fluid's energy balance: kinetic energy, and the powers that boundaries, grains, drag, "
-    "viscosity, stabilisation, time steps and open boundaries give it, and what is left "
+    "viscosity, stabilisation, time steps and terms of boundaries (open ones, walls with a slip length) give it, and "
+    "what is left "
     "unexplained. Costs about an assembly a step.")
 } // namespace alluvium::observers

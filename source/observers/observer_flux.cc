@@ -95,10 +95,9 @@ namespace alluvium::observers
 
       static std::map<dealii::types::boundary_id, std::string> open_boundaries(const Snapshot &s)
       {
-        using Kind = fluid::BoundaryConditions<2>::Kind;
         std::map<dealii::types::boundary_id, std::string> result;
         for (const auto &[id, condition] : s.fluid->boundary_conditions.all())
-          if (condition.kind == Kind::pressure || condition.kind == Kind::velocity)
+          if (condition.kind->lets_fluid_pass())
             result[id] = condition.name;
         return result;
       }

@@ -72,6 +72,16 @@ namespace alluvium::refinement
 
 
   template <int dim>
+  void Adaptivity<dim>::parse_parameters()
+  {
+    check_user(finest <= coarsest,
+               "Mesh refinement: 'Finest cell size' = " + in_digits(finest) +
+                 " is larger than 'Coarsest cell size' = " + in_digits(coarsest) + ", in mean grain diameters.");
+    criteria.parse_parameters();
+  }
+
+
+  template <int dim>
   double Adaptivity<dim>::coarse_size(const RefinementContext &context) const
   {
     if (!(context.grain_diameter > 0.))
@@ -145,9 +155,6 @@ namespace alluvium::refinement
   template <int dim>
   void Adaptivity<dim>::check_mesh(const Triangulation<dim> &triangulation) const
   {
-    check_user(finest <= coarsest,
-               "Mesh refinement: 'Finest cell size' = " + in_digits(finest) +
-                 " is larger than 'Coarsest cell size' = " + in_digits(coarsest) + ", in mean grain diameters.");
     check_user(
       interval == 0 || triangulation.all_reference_cells_are_hyper_cube(),
       "Mesh refinement/Interval: a mesh of triangles cannot be adapted (deal.II refines quadrilaterals in parallel). "

@@ -26,12 +26,12 @@ namespace alluvium::refinement
           dealii::Patterns::Anything());
       }
 
+      void parse_parameters() override { parse(1.); } // whether it can be understood, before grains take their time
+
       void prepare(const RefinementContext &context) override
       {
         if (!function)
-          function = parse_expressions("Mesh refinement/Criteria: function/Cell size",
-                                       {text},
-                                       {{"d", context.initial_diameter}, {"pi", dealii::numbers::PI}});
+          function = parse(context.initial_diameter);
         function->set_time(context.time);
       }
 
@@ -80,6 +80,12 @@ namespace alluvium::refinement
                           " at x = " + in_digits(point[0]) + ", y = " + in_digits(point[1]) +
                           ", t = " + in_digits(function->get_time()) + "; sizes must be positive.");
         return size;
+      }
+
+      std::shared_ptr<dealii::Function<2>> parse(const double diameter) const
+      {
+        return parse_expressions(
+          "Mesh refinement/Criteria: function/Cell size", {text}, {{"d", diameter}, {"pi", dealii::numbers::PI}});
       }
 
       std::string                          text = "4";

@@ -56,7 +56,13 @@ namespace alluvium::run
       solver.gravity[d] = gravity[d] = g[d];
     has_fluid   = fluid_model != "none";
     grains_move = !grain_setup.fixed();
+    grain_setup.parse_parameters();
+    contacts.parse_parameters();
     coupling.parse_parameters();
+    if (!has_fluid)
+      return;
+    adaptivity.parse_parameters();
+    boundary_conditions.parse_parameters();
   }
 
 

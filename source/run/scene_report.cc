@@ -28,23 +28,8 @@ namespace alluvium::run
 
     std::string in_words(const fluid::BoundaryConditions<Model::dim>::Condition &condition)
     {
-      using Kind = fluid::BoundaryConditions<Model::dim>::Kind;
-      const std::string expressions =
-        (condition.text.empty() ? "" : " " + condition.text) + (condition.add_hydrostatic ? " above hydrostatic" : "");
-      switch (condition.kind)
-        {
-          case Kind::no_slip:
-            return "no slip";
-          case Kind::slip:
-            return "slip";
-          case Kind::pressure:
-            return "pressure" + expressions;
-          case Kind::velocity:
-            return "velocity" + expressions;
-          case Kind::natural:
-            return "natural";
-        }
-      return "";
+      return condition.kind->in_words() + (condition.text.empty() ? "" : " " + condition.text) +
+             (condition.add_hydrostatic ? " above hydrostatic" : "");
     }
 
     /** Every boundary of the domain with what it is to fluid and grains. */

@@ -155,7 +155,6 @@ namespace alluvium::run
 
   void set_up(Model &m, const std::string &directory, Checkpoint *from)
   {
-    m.parse_parameters();
     check_user(m.has_fluid || !(m.grain_setup.unit_length() > 0.),
                "Grains/Deposit = none and Fluid/Model = none: there is nothing to compute.");
     m.domain.initialize(m.communicator, directory);

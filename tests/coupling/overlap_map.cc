@@ -163,7 +163,7 @@ namespace
   {
     explicit SlipSpace(const Triangulation<2> &tria)
     {
-      bc.set(0, {fluid::BoundaryConditions<2>::Kind::slip, "walls", nullptr});
+      bc.set(0, {boundary_kinds::slip, "walls", nullptr});
       space.attach(tria);
       space.reinit(bc);
     }

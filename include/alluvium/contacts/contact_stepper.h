@@ -51,9 +51,12 @@ namespace alluvium::contacts
     /** Declare the parameters of contacts in the current section of @p prm. */
     void add_parameters(dealii::ParameterHandler &prm);
 
+    /** After the file was read; see Plugin. Throws UserError. */
+    void parse_parameters();
+
     ContactSettings &settings();
 
-    /** Throws UserError if the settings name a wall that is not among them. */
+    /** Throws UserError for settings that do not fit them, such as a wall's name that is not among them. */
     void                                    set_walls(std::vector<grains::WallSegment> walls);
     const std::vector<grains::WallSegment> &walls() const; // where they are now, if they move
 

@@ -76,12 +76,9 @@ namespace alluvium::observers
    * Interface of the plug-ins that measure. They may look at everything and change nothing; what they find goes into
    * the columns of statistics.csv and into summary.json.
    */
-  class Observer
+  class Observer : public Plugin
   {
   public:
-    virtual ~Observer() = default;
-    virtual void add_parameters(dealii::ParameterHandler &) {}
-
     /**
      * Whether there is anything to measure in this scene; the others are never called again. Throws UserError for a
      * parameter that does not fit the scene, such as the name of a wall that it has not.

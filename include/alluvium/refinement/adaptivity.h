@@ -46,6 +46,9 @@ namespace alluvium::refinement
     /** Declare section `Mesh refinement` in @p prm. */
     void add_parameters(dealii::ParameterHandler &prm);
 
+    /** After the file was read; see Plugin. Throws UserError. */
+    void parse_parameters();
+
     /**
      * The cell size [m] that the unrefined mesh should have, or 0 if the criteria cannot say because there are no
      * grains.
