@@ -196,11 +196,14 @@ def draw_map(study, results, folder):
     figure, axes, place = panels(len(series), columns, (5.2, 4.8), 0.9)
     finite = [v for v in values if math.isfinite(v) and (v > 0 or "v" not in chart.log)] or [1.0]
     norm = (LogNorm if "v" in chart.log else Normalize)(min(finite), max(max(finite), min(finite) * (1 + 1e-9)))
-    handles, coloured, good = {}, None, "at most %s" % number(chart.bound)
+    handles, coloured = {}, None
+    good, above = chart.good or "at most %s" % number(chart.bound), chart.above or "above %s" % number(chart.bound)
+    if chart.words:
+        norm = Normalize(min(chart.words), max(chart.words))
     for i, (axis, name) in enumerate(zip(axes, series)):
         points = results.of(name)
         for kind, marker, wanted in ((good, "o", lambda r: r.done and r.values.get(chart.value, math.inf) <= chart.bound),
-                                     ("above %s" % number(chart.bound), "s", lambda r: r.done and r.values.get(chart.value, math.inf) > chart.bound),
+                                     (above, "s", lambda r: r.done and r.values.get(chart.value, math.inf) > chart.bound),
                                      ("failed", "X", lambda r: not r.done)):
             chosen = [r for r in points if wanted(r)]
             if not chosen:
@@ -240,5 +243,7 @@ def draw_map(study, results, folder):
         if "v" in chart.log:
             bar.ax.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
             plain(bar.ax.yaxis)
+        if chart.words:
+            bar.set_ticks(list(chart.words), labels=list(chart.words.values()))
     place.legend(handles.values(), handles.keys(), loc="center", ncol=max(1, min(len(handles), place.columns + 1)), frameon=False)
     return save(figure, folder, study.name)

@@ -73,6 +73,9 @@ class Map:
     log: str = ""  # 'x', 'y', 'xy'; 'v' for the colours
     lines: Optional[Callable] = None  # lines(series) yields (label, xs, ys): theory
     stands: tuple = ()  # (x, y, label), then the series that it is for, if not all: where the default stands
+    good: str = ""  # what points up to the bound, and above it, are called
+    above: str = ""
+    words: dict = dataclasses.field(default_factory=dict)  # {value: word}, where the value counts outcomes
 
 
 class Missing(Exception):
