@@ -46,3 +46,13 @@ def growth(run):
         above += 1
     above = min(above, len(change) - 1)
     return (change[above] / change[0]) ** (1 / above) if change[above] > 0 else 1e-3
+
+
+def largest(r, series):
+    """Growth of a series; infinite if a point of it failed."""
+    return max(p.values["growth"] if p.done else math.inf for p in r.some(series, "growth"))
+
+
+def disagree(r, series, is_unstable):
+    """Points that do not grow where is_unstable(point) says so, or do where it does not."""
+    return sum((p.values["growth"] > 1) != is_unstable(p.point) for p in r.some(series, "growth"))

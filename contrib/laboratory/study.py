@@ -96,6 +96,13 @@ class Results:
     def of(self, series):
         return [r for r in self.all if r.point.series == series]
 
+    def some(self, series, name=None):
+        """Those of a series, with a value of this name if one is given; Missing if there are none."""
+        found = [r for r in self.of(series) if name is None or name in r.values]
+        if not found:
+            raise Missing("%s was not run" % series)
+        return found
+
     def get(self, series, label):
         found = self.by_name.get((series, label))
         if found is None:

@@ -5,7 +5,7 @@ without knowing a contact force. Each point is 50 steps. What is drawn is the la
 so all of it is the solver's error, or a bed that comes down. The line is where an error of the tolerance, always of the same sign,
 adds up to an overlap of 1e-3 d: 50 times tolerance g dt^2.
 """
-from laboratory.study import Map, Missing, Point
+from laboratory.study import Map, Point
 
 order = 14
 scene = "bed.prm"
@@ -45,22 +45,15 @@ def measure(run, point):
             "sweeps a step": run.summary["counts"]["contact sweeps"] / run.summary["run"]["steps"]}
 
 
-def found(r, name):
-    points = r.of(name)
-    if not points:
-        raise Missing("%s was not run" % name)
-    return points
-
-
 def worst(r, most, name):
     """Of tolerances up to `most`."""
-    return max(p.values.get("largest overlap / d", float("inf")) for p in found(r, name) if p.point.y <= most)
+    return max(p.values.get("largest overlap / d", float("inf")) for p in r.some(name) if p.point.y <= most)
 
 
 def claims(r):
     for name in depths:
         yield "%s: tolerances of 1e-4 and less leave less than 1e-3 d" % name, lambda name=name: worst(r, 1.1e-4, name), "<", 1e-3
-    yield "40 layers: a tolerance of 1e-1 does not hold the bed", lambda: max(p.values.get("largest overlap / d", 1) for p in found(r, "40 layers") if p.point.y > 0.05), ">", 1e-2
+    yield "40 layers: a tolerance of 1e-1 does not hold the bed", lambda: max(p.values.get("largest overlap / d", 1) for p in r.some("40 layers") if p.point.y > 0.05), ">", 1e-2
 
 
 def says(r):

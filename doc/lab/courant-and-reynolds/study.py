@@ -8,7 +8,7 @@ backward Euler with a stabilised convection by the velocity of t^n, has neither 
 """
 import numpy as np
 
-from laboratory.study import Map, Missing, Point
+from laboratory.study import Map, Point
 
 order = 13
 scene = "jet.prm"
@@ -43,15 +43,8 @@ def measure(run, point):
     return {"growth": float(np.max(speed[-max(len(speed) // 3, 1):])) / fastest, "energy from nowhere": float(run.summary.get("energy", {}).get("unexplained_gain_over_exchanged", 0.0))}
 
 
-def found(r, name):
-    points = r.of(name)
-    if not points:
-        raise Missing("%s was not run" % name)
-    return points
-
-
 def bad(r, name):
-    return sum(not p.done or p.values["growth"] > chart.bound for p in found(r, name))
+    return sum(not p.done or p.values["growth"] > chart.bound for p in r.some(name))
 
 
 def claims(r):
@@ -62,4 +55,4 @@ def claims(r):
 def says(r):
     return ("The default is stable at every Courant number up to 100 and every Reynolds number of a cell up to 1e5: velocities stay within %.2g times the jet's. "
             "Without the terms of the open boundary %d of %d points fail or grow."
-            % (max(p.values["growth"] for p in found(r, ALL)), bad(r, FEW), len(found(r, FEW))))
+            % (max(p.values["growth"] for p in r.some(ALL)), bad(r, FEW), len(r.some(FEW))))

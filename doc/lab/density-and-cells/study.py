@@ -4,8 +4,8 @@ The lattice of [the map of time schemes](../time-schemes/README.md) at a void fr
 the fluid's density, which rise or sink. 30 steps of a tenth of a relaxation time for schemes whose continuity equation sees the discs'
 velocity of t^n, of ten for the others. The line is where 2 eps^2 (1 - r) is that step: below it, theory says, changes grow.
 """
-from laboratory.lattice import bound_of, files, growth, rho, settings
-from laboratory.study import Map, Missing, Point
+from laboratory.lattice import bound_of, disagree, files, growth, largest, rho, settings
+from laboratory.study import Map, Point
 
 order = 12
 scene = "../time-schemes/suspension.prm"
@@ -41,28 +41,21 @@ def measure(run, point):
     return {"growth": growth(run)}
 
 
-def found(r, scheme):
-    points = [p for p in r.of("%s, %g tau_p" % (scheme, schemes[scheme])) if "growth" in p.values]
-    if not points:
-        raise Missing("%s was not run" % scheme)
-    return points
-
-
-def largest(r, scheme):
-    return max(p.values["growth"] if p.done else float("inf") for p in found(r, scheme))
+def name_of(scheme):
+    return "%s, %g tau_p" % (scheme, schemes[scheme])
 
 
 def wrong(r, scheme):
-    return sum((p.values["growth"] > 1) != (schemes[scheme] > bound_of(eps, p.point.y * rho)) for p in found(r, scheme))
+    return disagree(r, name_of(scheme), lambda p: schemes[scheme] > bound_of(eps, p.y * rho))
 
 
 def claims(r):
     yield "'implicit drag' is unstable beyond the line, and nowhere else, at all densities", lambda: wrong(r, "implicit drag"), "==", 0
     for name in ("semi-implicit per piece", "semi-implicit per grain", "iterated"):
-        yield "'%s' is stable at all densities" % name, lambda name=name: largest(r, name), "<", 1.0
+        yield "'%s' is stable at all densities" % name, lambda name=name: largest(r, name_of(name)), "<", 1.0
 
 
 def says(r):
     return ("The default, 'iterated', is stable for grains of a tenth to a thousand times the fluid's density, on cells from 4 d to 0.5 d, at ten relaxation times a step (growth at most %.2g). "
             "'implicit drag' is not where grains are light, at no step below 1.08 times the fluid's density: it disagrees with the line of theory at %d of %d points."
-            % (largest(r, "iterated"), wrong(r, "implicit drag"), len(found(r, "implicit drag"))))
+            % (largest(r, name_of("iterated")), wrong(r, "implicit drag"), len(r.some(name_of("implicit drag")))))

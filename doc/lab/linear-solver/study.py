@@ -7,7 +7,7 @@ smears it. The line is a step of one relaxation time of the drag: to its right t
 """
 import math
 
-from laboratory.study import Map, Missing, Point
+from laboratory.study import Map, Point
 
 order = 15
 scene = "bed.prm"
@@ -47,15 +47,8 @@ def measure(run, point):
     return {"iterations": DIRECT if direct else max(counts["linear iterations"] / solves, 1), "direct solves": direct, "loose solves": counts.get("linear solves above the tolerance", 0)}
 
 
-def found(r, name):
-    points = r.of(name)
-    if not points:
-        raise Missing("%s was not run" % name)
-    return points
-
-
 def most(r, name):
-    return max(p.values["iterations"] if p.done else float("inf") for p in found(r, name))
+    return max(p.values["iterations"] if p.done else float("inf") for p in r.some(name))
 
 
 def lost(r):

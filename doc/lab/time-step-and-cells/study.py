@@ -5,8 +5,8 @@ much coarser. Each point is 30 steps of one length; growth is the mean factor fr
 2 eps^2 (1 - r), theory of a homogeneous suspension for schemes whose continuity equation sees the discs' velocity of t^n: it knows no
 cells. `Filter radius = grain` leaves fine cells nearly full of grain, with void fractions far below the mean.
 """
-from laboratory.lattice import bound_of, files, growth, settings
-from laboratory.study import Map, Missing, Point
+from laboratory.lattice import bound_of, disagree, files, growth, largest, settings
+from laboratory.study import Map, Point
 
 order = 11
 scene = "../time-schemes/suspension.prm"
@@ -40,19 +40,8 @@ def measure(run, point):
     return {"growth": growth(run)}
 
 
-def found(r, series):
-    points = [p for p in r.of(series) if "growth" in p.values]
-    if not points:
-        raise Missing("%s was not run" % series)
-    return points
-
-
-def largest(r, series):
-    return max(p.values["growth"] if p.done else float("inf") for p in found(r, series))
-
-
 def wrong(r, series):
-    return sum((p.values["growth"] > 1) != (p.point.x > bound_of(eps)) for p in found(r, series))
+    return disagree(r, series, lambda p: p.x > bound_of(eps))
 
 
 def claims(r):
@@ -64,4 +53,4 @@ def claims(r):
 def says(r):
     return ("The default, 'iterated', is stable on cells from 4 d to 0.25 d at every step tried, up to 10 tau_p (growth at most %.2g), and so are the semi-implicit schemes. "
             "The line of theory, which knows no cells, holds on all of them: 'implicit drag' disagrees with it at %d of %d points."
-            % (largest(r, "iterated"), wrong(r, "implicit drag"), len(found(r, "implicit drag"))))
+            % (largest(r, "iterated"), wrong(r, "implicit drag"), len(r.some("implicit drag"))))
