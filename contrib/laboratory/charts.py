@@ -8,7 +8,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.colors import LogNorm, Normalize
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter, NullLocator
 from matplotlib.transforms import Bbox
 
 from alluvium.draw import use_style
@@ -216,12 +216,13 @@ def draw_map(study, results, folder):
                                     edgecolors="#0072B2" if kind == good else "#D55E00", linewidths=2)
             edge = {good: "#0072B2", "failed": "white"}.get(kind, "#D55E00")
             handles[kind] = matplotlib.lines.Line2D([], [], ls="", marker=marker, ms=10, mfc=FAILED if kind == "failed" else "white", mec=edge, mew=2)
-        if "x" in chart.log:
-            axis.set_xscale("log")
-            plain(axis.xaxis)
-        if "y" in chart.log:
-            axis.set_yscale("log")
-            plain(axis.yaxis)
+        for way, side, scale, swept in (("x", axis.xaxis, axis.set_xscale, [r.point.x for r in points]), ("y", axis.yaxis, axis.set_yscale, [r.point.y for r in points])):
+            if way in chart.log:
+                scale("log")
+                if len(set(swept)) <= 8:
+                    side.set_major_locator(FixedLocator(sorted(set(swept))))
+                    side.set_minor_locator(NullLocator())
+                plain(side)
         axis.margins(0.1)
         limits = axis.get_xlim(), axis.get_ylim()
         for k, (label, xs, ys) in enumerate(chart.lines(name) if chart.lines else []):
