@@ -214,7 +214,7 @@ def draw_map(study, results, folder):
             else:
                 coloured = axis.scatter(*at, marker=marker, s=120, c=[r.values[chart.value] for r in chosen], cmap="cividis", norm=norm, zorder=3,
                                     edgecolors="#0072B2" if kind == good else "#D55E00", linewidths=2)
-            edge = {good: "#0072B2", "failed": "white"}.get(kind, "#D55E00")
+            edge = {good: "#0072B2", "failed": FAILED}.get(kind, "#D55E00")
             handles[kind] = matplotlib.lines.Line2D([], [], ls="", marker=marker, ms=10, mfc=FAILED if kind == "failed" else "white", mec=edge, mew=2)
         for way, side, scale, swept in (("x", axis.xaxis, axis.set_xscale, [r.point.x for r in points]), ("y", axis.yaxis, axis.set_yscale, [r.point.y for r in points])):
             if way in chart.log:
