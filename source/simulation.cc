@@ -53,6 +53,7 @@ namespace alluvium
   private:
     void prepare(const ParameterHandler &prm, const std::string &directory, bool writes);
     void report_restart() const;
+    void check_time_step();
     bool has_ended() const { return model.time >= end_time - 1e-6 * model.time_step; }
     int  advance();
     void step();
@@ -130,14 +131,21 @@ namespace alluvium
     std::vector<double> intervals = output.intervals();
     intervals.push_back(guard.interval_of_checkpoints());
     time_step.prepare(end_time, intervals);
-    if (!time_step.automatic() || run::stable_step(model, end_time) == 0.) // else it is obeyed
-      run::check_time_step(model, end_time);
+    check_time_step();
     output.choose_observers();
     if (writes && !restart)
       output.make_folder(false);
     else if (!restart)
       output.check_folder(false, true); // now that it is known what the deposit reads
     output.open();
+  }
+
+
+  /** Warn if it is beyond the time scheme's limit. A chosen one obeys that, unless it is zero. */
+  void Simulation::Implementation::check_time_step()
+  {
+    if (!time_step.automatic() || run::stable_step(model) == 0.)
+      run::check_time_step(model);
   }
 
 
@@ -214,6 +222,9 @@ namespace alluvium
           }
         count_step();
         guard.judge();
+        constexpr unsigned int check_interval = 20; // grains settle, and the limit falls
+        if (model.n_steps % check_interval == 0)
+          check_time_step();
         output.update();
         signal = stop_requested(model.communicator);
         guard.keep();

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <sstream>
 #include <stdexcept>
 
 namespace alluvium::contacts
@@ -123,6 +125,28 @@ namespace alluvium::contacts
   }
 
 
+  /**
+   * A distance to look for pairs that is above @p needed, by a fifth of what motion adds to @p at_rest where a periodic
+   * domain is so wide: a grain must meet another one on one side only.
+   */
+  double ContactSubstep::with_margin(const double needed, const double at_rest) const
+  {
+    double fits = std::numeric_limits<double>::infinity();
+    for (const double length : work.geometry.periodicity.length)
+      if (length > 0.)
+        fits = std::min(fits, 0.5 * length - step.scales.d_max);
+    // a domain that is too narrow for grains at rest is the user's mistake, which the search reports
+    if (needed >= 0.999 * fits && at_rest + settings.skin * step.scales.d_max < fits)
+      {
+        std::ostringstream text;
+        text << "grains, or walls, are so fast that in " << margins.h << " s they go " << needed
+             << " m, about half of the domain or more where it is periodic.";
+        throw Divergence(text.str());
+      }
+    return std::min(needed + 0.2 * (needed - at_rest), std::max(0.999 * fits, needed));
+  }
+
+
   void ContactSubstep::search_if_due()
   {
     const double h = margins.h;
@@ -134,7 +158,7 @@ namespace alluvium::contacts
     if (slack >= alert_distance + reach)
       return;
     slack = std::max(settings.skin * step.scales.d_max + alert_distance - margins.alert_distance,
-                     1.2 * reach + alert_distance);
+                     with_margin(reach + alert_distance, alert_distance));
     local.search(slack);
     if (local.is_partitioned()) // with other grains now
       bodies.set(local.grains(), local.loads(), h, settings.rotation);
@@ -260,7 +284,7 @@ namespace alluvium::contacts
       return false;
     if (search)
       {
-        slack = 1.2 * reach;
+        slack = with_margin(reach, 0.);
         local.search(slack, problem.discs);
         if (local.is_partitioned())
           bodies.set(local.grains(), local.loads(), margins.h, settings.rotation);

@@ -204,7 +204,7 @@ namespace alluvium::run
       }
     constexpr unsigned int stable_interval = 20;
     if (model.n_steps % stable_interval == 0 || !(stable > 0.))
-      stable = stable_step(model, end_time);
+      stable = stable_step(model);
     constexpr double safety = 0.8;
     double           dt     = wanted;
     if (stable > 0. && safety * stable < dt) // 0: no step is stable, which has been warned of

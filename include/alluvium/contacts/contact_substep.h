@@ -78,6 +78,7 @@ namespace alluvium::contacts
 
     void             advance(double h, unsigned int level, ContactReport &report);
     void             set_margins(double h);
+    double           with_margin(double needed, double at_rest) const;
     void             search_if_due();
     void             set_problem(bool keep);
     ContactTolerance tolerance(bool on_the_move) const;

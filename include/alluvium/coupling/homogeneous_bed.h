@@ -49,6 +49,12 @@ namespace alluvium::coupling
                                 const grains::GrainArrays    &grains,
                                 double                        area);
 
+  /**
+   * The void fraction below which @p share of the grains' volume lies: that of the densest part of them, as the fluid
+   * sees it. 1 without grains; in steps of 1e-3. Collective.
+   */
+  double void_fraction_of_densest(const Coupling &coupling, const fluid::FluidSpace<2> &space, const double share);
+
   /** Void fraction inside a bed as the fluid sees it; 1 where there is no inside. See grains/packing.h. */
   double inner_void_fraction(const grains::GrainArrays &grains);
 } // namespace alluvium::coupling
