@@ -132,7 +132,7 @@ namespace alluvium::contacts
   double ContactSubstep::with_margin(const double needed, const double at_rest) const
   {
     double fits = std::numeric_limits<double>::infinity();
-    for (const double length : work.geometry.periodicity.length)
+    for (const double length : local.geometry.periodicity.length)
       if (length > 0.)
         fits = std::min(fits, 0.5 * length - step.scales.d_max);
     // a domain that is too narrow for grains at rest is the user's mistake, which the search reports
