@@ -265,8 +265,8 @@ namespace alluvium::fluid
     if (!std::isfinite(value))
       {
         std::ostringstream text;
-        text << condition.described() << ": '" << condition.text << "' is " << value
-             << " at x = " << point[0] << ", y = " << point[1] << ", t = " << time << "; expected a finite number.";
+        text << condition.described() << ": '" << condition.text << "' is " << value << " at x = " << point[0]
+             << ", y = " << point[1] << ", t = " << time << "; expected a finite number.";
         throw UserError(text.str());
       }
     if (condition.add_hydrostatic)

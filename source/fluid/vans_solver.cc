@@ -253,10 +253,10 @@ namespace alluvium::fluid
     std::array<double, 2> size = assembler.term_norms(current, iterate);
     // Where no pressure drives the flow, inertia and friction are still there, and their round-off. They are larger
     // than the other terms in most flows, and would be too loose a measure.
-    constexpr double part   = 1e-5;
-    const double     length = cell_length();
-    const double force_per_flux = properties.density / current.dt * length + properties.viscosity / length;
-    size[0]                     = std::max(size[0], part * force_per_flux * size[1]);
+    constexpr double part           = 1e-5;
+    const double     length         = cell_length();
+    const double     force_per_flux = properties.density / current.dt * length + properties.viscosity / length;
+    size[0]                         = std::max(size[0], part * force_per_flux * size[1]);
     return size;
   }
 

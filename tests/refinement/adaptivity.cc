@@ -491,7 +491,7 @@ namespace
       {
         const Parameters faces = {{"Mesh refinement/Criteria: bed faces/Cell size at the top", size},
                                   {"Mesh refinement/Criteria: bed faces/Half width", "4"}};
-        const double     n = Scene(faces, context).report.n_cells;
+        const double     n     = Scene(faces, context).report.n_cells;
         EXPECT_NEAR(count(faces) / n, 1., 0.05) << size;
       }
     const Parameters function = {{"Mesh refinement/Criteria", "function"},
