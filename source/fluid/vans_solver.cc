@@ -272,8 +272,9 @@ namespace alluvium::fluid
       scale[0] = residual.block(1).l2_norm() / flux_per_force;
     scale[1] = std::max(scale[1], residual.block(1).l2_norm());
     // nor has a flux that is not there yet: below this, round-off alone would be above the tolerance
-    if (constexpr double nothing = 1e-10; scale[1] < nothing * scale[0] * flux_per_force)
-      scale[1] = scale[0] * flux_per_force;
+    constexpr double nothing = 1e-10, little = 1e-4;
+    if (scale[1] < nothing * scale[0] * flux_per_force)
+      scale[1] = little * scale[0] * flux_per_force;
     return scale;
   }
 
