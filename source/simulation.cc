@@ -119,7 +119,7 @@ namespace alluvium
         checkpoint = std::make_unique<run::Checkpoint>(model.communicator, output.folder().file("checkpoint"));
         changes    = checkpoint->compare_parameters(model);
       }
-    run::set_up(model, directory, checkpoint.get());
+    run::set_up(model, directory, checkpoint.get(), end_time);
     // a run that was killed between its last checkpoint and its summary has the summary left to do
     check_user(!restart || !has_ended() ||
                  (model.time <= end_time + 1e-6 * model.time_step && !output.holds_finished_run()),

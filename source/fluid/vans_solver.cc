@@ -257,10 +257,10 @@ namespace alluvium::fluid
     std::array<double, 2> size = assembler.term_norms(current, iterate);
     // Where no pressure drives the flow, inertia and friction are still there, and their round-off. They are larger
     // than the other terms in most flows, and would be too loose a measure.
-    constexpr double part   = 1e-5;
-    const double     length = cell_length();
-    const double force_per_flux = properties.density / current.dt * length + properties.viscosity / length;
-    size[0]                     = std::max(size[0], part * force_per_flux * size[1]);
+    constexpr double part           = 1e-5;
+    const double     length         = cell_length();
+    const double     force_per_flux = properties.density / current.dt * length + properties.viscosity / length;
+    size[0]                         = std::max(size[0], part * force_per_flux * size[1]);
     return size;
   }
 
@@ -274,7 +274,11 @@ namespace alluvium::fluid
     const double flux_per_force = current.dt / (properties.density * cell_length());
     if (scale[0] == 0.)
       scale[0] = residual.block(1).l2_norm() / flux_per_force;
-    scale[1] = std::max({scale[1], residual.block(1).l2_norm(), 1e-12 * scale[0] * flux_per_force});
+    scale[1] = std::max(scale[1], residual.block(1).l2_norm());
+    // nor has a flux that is not there yet: below this, round-off alone would be above the tolerance
+    constexpr double nothing = 1e-10, little = 1e-4;
+    if (scale[1] < nothing * scale[0] * flux_per_force)
+      scale[1] = little * scale[0] * flux_per_force;
     return scale;
   }
 

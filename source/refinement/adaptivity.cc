@@ -188,9 +188,8 @@ namespace alluvium::refinement
         std::vector<CellCorners<dim>> next;
         for (const CellCorners<dim> &cell : cells)
           {
-            const double size =
-              std::max(cell[0].distance(cell[3]), cell[1].distance(cell[2])) / std::sqrt(double(dim));
-            mesh::Box box;
+            const double size = std::max(cell[0].distance(cell[3]), cell[1].distance(cell[2])) / std::sqrt(double(dim));
+            mesh::Box    box;
             for (unsigned int d = 0; d < dim; ++d)
               {
                 box.lower[d] = std::min({cell[0][d], cell[1][d], cell[2][d], cell[3][d]});
@@ -202,8 +201,7 @@ namespace alluvium::refinement
                 continue;
               }
             const auto at = [&](const double x, const double y) {
-              return Point<dim>((1. - y) * ((1. - x) * cell[0] + x * cell[1]) +
-                                y * ((1. - x) * cell[2] + x * cell[3]));
+              return Point<dim>((1. - y) * ((1. - x) * cell[0] + x * cell[1]) + y * ((1. - x) * cell[2] + x * cell[3]));
             };
             for (const double y : {0., 0.5})
               for (const double x : {0., 0.5})
@@ -218,7 +216,7 @@ namespace alluvium::refinement
   template <int dim>
   void Adaptivity<dim>::check_number(const double n_cells) const
   {
-    constexpr double error = 0.2;
+    constexpr double   error = 0.2;
     std::ostringstream text;
     text.precision(2);
     text << "Mesh refinement: the criteria ask for about " << n_cells;

@@ -27,10 +27,10 @@ namespace alluvium::run
       const dealii::Point<2> lower = m.domain.lower();
       const auto             side  = m.domain.upper() - lower;
       // of many, so many evenly spread ones: multiples of these two shares fill a square evenly
-      constexpr double      most = 5000., share[] = {0.7548776662466927, 0.5698402909980532};
-      const double          n_cells = n[0] * n[1];
-      const bool            all     = n_cells <= most;
-      const std::size_t     n_seen  = all ? n_cells : most;
+      constexpr double                        most = 5000., share[] = {0.7548776662466927, 0.5698402909980532};
+      const double                            n_cells = n[0] * n[1];
+      const bool                              all     = n_cells <= most;
+      const std::size_t                       n_seen  = all ? n_cells : most;
       std::vector<refinement::CellCorners<2>> cells;
       for (std::size_t i = 0; i < n_seen; ++i)
         {

@@ -1,6 +1,7 @@
 #include <alluvium/run/checkpoint.h>
 #include <alluvium/run/mesh_changes.h>
 #include <alluvium/run/model.h>
+#include <alluvium/run/poles.h>
 #include <alluvium/run/scene_size.h>
 #include <alluvium/run/set_up.h>
 #include <alluvium/utilities/divergence.h>
@@ -153,7 +154,7 @@ namespace alluvium::run
   }
 
 
-  void set_up(Model &m, const std::string &directory, Checkpoint *from)
+  void set_up(Model &m, const std::string &directory, Checkpoint *from, const double end_time)
   {
     check_user(m.has_fluid || !(m.grain_setup.unit_length() > 0.),
                "Grains/Deposit = none and Fluid/Model = none: there is nothing to compute.");
@@ -162,6 +163,7 @@ namespace alluvium::run
       check_boundary_conditions(m);
     const auto walls = m.grain_setup.walls(m.domain);
     m.contacts.set_walls(walls);
+    check_poles_of_walls(m, end_time);
     m.contacts.set_periodicity(m.domain.periodicity());
     m.contacts.set_communicator(m.communicator);
     const std::array<double, 2> lower = {{m.domain.lower()[0], m.domain.lower()[1]}},

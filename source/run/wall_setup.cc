@@ -221,8 +221,8 @@ namespace alluvium::run
             {
               v[d] = function->value(Point<2>(), d);
               check_user(std::isfinite(v[d]),
-                         motion_name + ": '" + name + "': '" + text + "' is " + in_digits(v[d]) + " at t = " +
-                           in_digits(t) + " s; expected finite numbers while it moves.");
+                         motion_name + ": '" + name + "': '" + text + "' is " + in_digits(v[d]) +
+                           " at t = " + in_digits(t) + " s; expected finite numbers while it moves.");
             }
           return v;
         };

@@ -118,7 +118,8 @@ namespace alluvium::scene
                        origin + ": expected 'set NAME = VALUE', found '" + text + "'.");
             ParameterPath path = sections;
             path.push_back(trim(rest.substr(0, equals)));
-            statements.push_back({path, trim(rest.substr(equals + 1)), origin, false, open_files.back().string(), number});
+            statements.push_back(
+              {path, trim(rest.substr(equals + 1)), origin, false, open_files.back().string(), number});
           }
         else if (is("include"))
           {

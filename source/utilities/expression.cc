@@ -57,7 +57,8 @@ namespace alluvium
       return false;
     }
 
-    /** deal.II prints what muParser has to say of a mistake, beside throwing it. Nothing is printed while this lives. */
+    /** deal.II prints what muParser has to say of a mistake, beside throwing it. Nothing is printed while this lives.
+     */
     class Silence
     {
     public:

@@ -49,7 +49,8 @@ namespace alluvium
 
   std::string with_plain_blanks(std::string text)
   {
-    for (const std::string blank : {"\xC2\xA0", "\xE2\x80\x82", "\xE2\x80\x83", "\xE2\x80\x87", "\xE2\x80\x89", "\xE2\x80\xAF"})
+    for (const std::string blank :
+         {"\xC2\xA0", "\xE2\x80\x82", "\xE2\x80\x83", "\xE2\x80\x87", "\xE2\x80\x89", "\xE2\x80\xAF"})
       for (auto at = text.find(blank); at != std::string::npos; at = text.find(blank, at))
         text.replace(at, blank.size(), " ");
     for (const std::string nothing : {"\xE2\x80\x8B", "\xEF\xBB\xBF"})

@@ -252,11 +252,12 @@ TEST(GivenVelocity, FacesAreDivided)
 
 TEST(GivenVelocity, FormulasThatMayJump)
 {
-  using Conditions     = BoundaryConditions<dim>;
+  using Conditions    = BoundaryConditions<dim>;
   const auto may_jump = [](const std::string &text) {
     return Conditions::Condition{Conditions::Kind::velocity, "left", nullptr, text}.may_jump();
   };
-  for (const char *text : {"if(x < 1, 1, 0) | 0", "max(0, x) | 0", "0 | rint(x)", "(x > 1)*2 | 0", "rand_seed(1) | 0", ""})
+  for (const char *text :
+       {"if(x < 1, 1, 0) | 0", "max(0, x) | 0", "0 | rint(x)", "(x > 1)*2 | 0", "rand_seed(1) | 0", ""})
     EXPECT_TRUE(may_jump(text)) << text;
   // words that only begin or end so are names of constants
   for (const char *text : {"0.1*y*(1 - y) | 0", "u_max*y | 0", "minute*x | 0", "gif | x_int"})

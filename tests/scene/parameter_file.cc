@@ -155,9 +155,10 @@ TEST_F(ParameterFile, SettingTwiceInOneFileIsSaid)
   // an old name is the same parameter
   const auto renamed = read("subsection Fluid\nset Stickiness = 1\nset Viscosity = 2\nend\n");
   ASSERT_EQ(renamed.size(), 1u);
-  EXPECT_EQ(without_folder(renamed[0]),
-            "scene.prm:3: parameter 'Fluid/Viscosity' is set twice in this file: '2' overrides the '1' of line 2, where "
-            "it is called 'Stickiness'. Delete one of the lines.");
+  EXPECT_EQ(
+    without_folder(renamed[0]),
+    "scene.prm:3: parameter 'Fluid/Viscosity' is set twice in this file: '2' overrides the '1' of line 2, where "
+    "it is called 'Stickiness'. Delete one of the lines.");
   EXPECT_EQ(viscosity, 2.);
 
   // what an included file says is there to be overridden, as by the command line; and a file may be included twice

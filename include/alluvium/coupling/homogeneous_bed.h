@@ -14,10 +14,7 @@ namespace alluvium::coupling
     double                        eps;
 
     /** Whether the law gives these grains any drag. */
-    bool has_drag(const DragLaw &law) const
-    {
-      return resistance(law, 0.) > 0.;
-    }
+    bool has_drag(const DragLaw &law) const { return resistance(law, 0.) > 0.; }
 
     /** K [m^2] of Darcy's law U = K |grad p| / eta in creeping flow: eta eps^2 / ((1 - eps) gamma(0)); 0 without drag.
      */

@@ -64,7 +64,8 @@ namespace alluvium::refinement
     /** Is the mesh to be adapted before step number @p step (0, 1, ...)? */
     bool due(unsigned int step) const;
 
-    /** What to warn of: a criterion that wants smaller cells everywhere than `Finest cell size` lets it have; or empty. */
+    /** What to warn of: a criterion that wants smaller cells everywhere than `Finest cell size` lets it have; or empty.
+     */
     std::string remark_on_limits(const RefinementContext &context) const;
 
     /** Throws UserError if a criterion will want what is no size in the run to @p end_time [s]. */

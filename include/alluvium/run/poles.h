@@ -21,9 +21,12 @@ namespace alluvium::run
   std::optional<Pole> find_pole(const std::function<double(double)> &f, const std::vector<double> &times);
 
   /**
-   * Look at all that the scene gives as a function of time, until @p end_time [s]: boundary values at some points,
-   * what drives the fluid, velocities of walls while they move, the wanted size of cells. Throws UserError that names
-   * the parameter where one of them has a pole. Leaves boundary values and driving at the model's time.
+   * Look at all that the scene gives the fluid as a function of time, until @p end_time [s]: boundary values at some
+   * points, what drives it, the wanted size of cells. Throws UserError that names the parameter where one of them has a
+   * pole. Leaves boundary values and driving at the model's time.
    */
   void check_poles(Model &model, double end_time);
+
+  /** The same of the velocities of walls, while they move: before contacts are asked to move them. */
+  void check_poles_of_walls(const Model &model, double end_time);
 } // namespace alluvium::run
