@@ -1,6 +1,8 @@
 #include <alluvium/fluid/cell_mesh_terms.h>
 #include <alluvium/fluid/face_state.h>
 
+#include <deal.II/base/exceptions.h>
+
 namespace alluvium::fluid
 {
   using namespace dealii;
@@ -90,6 +92,9 @@ namespace alluvium::fluid
   template <int dim, int n>
   FaceTerms<dim> face_terms(const CellState<dim, n> &state, const BoundaryFace<dim> &face, const double backflow)
   {
+    AssertThrow(
+      state.problem.boundary_conditions != nullptr,
+      ExcMessage("A problem whose boundaries have terms needs its boundary conditions; begin_step() sets them."));
     FaceTerms<dim> result;
     const auto    &condition = state.problem.boundary_conditions->all().at(face.boundary);
     condition.kind->add_terms(FaceState<dim>(state, face, backflow), result);

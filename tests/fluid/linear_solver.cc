@@ -103,7 +103,8 @@ namespace
     {
       BlockVector iterate = jet.space.make_field(), old = jet.space.make_field(), known = jet.space.make_field();
       given.update(jet.space, jet.bc, jet.void_fraction);
-      jet.problem.given_fluxes = &given.face_fluxes();
+      jet.problem.boundary_conditions = &jet.bc;
+      jet.problem.given_fluxes        = &given.face_fluxes();
       jet.space.boundary().apply_boundary_values(jet.bc, Tensor<1, dim>(), 0., {}, given.node_values(), iterate);
       for (BlockVector *field : {&iterate, &old, &known})
         field->update_ghost_values();
