@@ -68,6 +68,11 @@ def judge(program, names, scene, folder):
         if call(program, folder, "--check", "scene.prm", "--set", "Output/Output folder=none")[0] == 0:
             return Verdict("late", said, code, cpu)
         return Verdict("refused", said, code, cpu)
+    return of_output(scene, folder, code, cpu, said)
+
+
+def of_output(scene, folder, code, cpu, said=""):
+    """The verdict on what a run with exit code 0 or 3 has left."""
     try:
         with open(os.path.join(folder, "output", "summary.json")) as file:
             summary = json.load(file)

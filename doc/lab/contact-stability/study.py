@@ -52,7 +52,7 @@ def worst(r, most, name):
 
 def claims(r):
     for name in depths:
-        yield "%s: tolerances of 1e-4 and less leave less than 1e-3 d" % name, lambda name=name: worst(r, 1.1e-4, name), "<", 1e-3
+        yield "%s: tolerances of 1e-4 and less leave less than 1e-2 d" % name, lambda name=name: worst(r, 1.1e-4, name), "<", 1e-2
     yield "40 layers: a tolerance of 1e-1 does not hold the bed", lambda: max(p.values.get("largest overlap / d", 1) for p in r.some("40 layers") if p.point.y > 0.05), ">", 1e-2
 
 
