@@ -6,7 +6,7 @@ cells of 0.25 d to 8 d; steps from a hundredth of a grain's fall by its diameter
 code is 0 and its numbers are sane: void fractions, overlaps, momentum, fluxes, energy, speeds. What is doubtful needs a warning, what
 is refused a message that names a parameter, what diverges its sign. All else is a finding, and shown as failed.
 
-The search had three findings, which are mended, and tests now:
+The search had three findings. Each is a test now:
 
 - Grains so fast that they could reach half of a periodic domain in a step were called a mistake in `Domain/Periodic directions`, which
   `--check` had passed. They are a divergence, with the step as what to change.
