@@ -30,8 +30,8 @@ chart = Map(x="Courant number U dt / h", y="cell's Reynolds number U h / nu", va
 
 def points(quick):
     for name, more in series.items():
-        for re in [1, 1e4] if quick else [0.1, 1, 10, 100, 1e3, 1e4, 1e5]:
-            for c in [0.5, 10] if quick else [0.1, 0.3, 1, 3, 10, 30, 100]:
+        for re in [1, 1e4] if quick else [1, 100, 1e4]:
+            for c in [0.5, 10] if quick else [0.1, 0.5, 1, 10, 100]:
                 dt = c * h / U
                 yield Point(name, "%g, %g" % (c, re), {"Time/Time step": "%.10g" % dt, "Time/End time": "%.10g" % max(3 * length / U, 30 * dt),
                                                        "Fluid/Viscosity": "%.10g" % (rho * U * h / re), **more}, x=c, y=re)
@@ -53,6 +53,6 @@ def claims(r):
 
 
 def says(r):
-    return ("The default is stable at every Courant number up to 100 and every Reynolds number of a cell up to 1e5: velocities stay within %.2g times the jet's. "
+    return ("The default is stable at every Courant number up to 100 and every Reynolds number of a cell up to 1e4: velocities stay within %.2g times the jet's. "
             "Without the terms of the open boundary %d of %d points fail or grow."
             % (max(p.values["growth"] for p in r.some(ALL)), bad(r, FEW), len(r.some(FEW))))

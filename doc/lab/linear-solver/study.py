@@ -35,7 +35,7 @@ def points(quick):
         if quick and name != "void fraction 0.48":
             continue
         for h in [1, 4] if quick else [0.25, 0.5, 1, 2, 8]:
-            for dt in [1e-3] if quick else [1e-5, 1e-4, 1e-3, 1e-2, 1]:
+            for dt in [1e-3] if quick else [1e-5, 1e-3, 1]:
                 yield Point(name, "%g, %g" % (dt, h), {"Time/Time step": dt, "Time/End time": STEPS * dt, "Mesh refinement/Criteria: uniform/Cell size": h,
                                                        "Grains/Fluid packing fraction": 1 - eps, "Coupling/Filter radius": filter_radius}, x=dt, y=h)
 
