@@ -254,7 +254,7 @@ TEST(GivenVelocity, FormulasThatMayJump)
 {
   using Conditions    = BoundaryConditions<dim>;
   const auto may_jump = [](const std::string &text) {
-    return Conditions::Condition{Conditions::Kind::velocity, "left", nullptr, text}.may_jump();
+    return Conditions::Condition{nullptr, "left", nullptr, text}.may_jump();
   };
   for (const char *text :
        {"if(x < 1, 1, 0) | 0", "max(0, x) | 0", "0 | rint(x)", "(x > 1)*2 | 0", "rand_seed(1) | 0", ""})
