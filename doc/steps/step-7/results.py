@@ -26,7 +26,7 @@ def points(short):
         yield "fixed steps", "%g ms" % dt, fixed(dt)
     for tolerance in (0.05,) if short else (0.2, 0.05, 0.01):
         yield "chosen steps", "%g" % tolerance, chosen(tolerance)
-    for h in (8,) if short else (8, 4, 2, 0.5):
+    for h in (8,) if short else (8, 4, 2):
         yield "chosen steps, cells at the faces", "%g d" % h, cells(h)
 
 
