@@ -132,7 +132,8 @@ namespace alluvium::run
               result.push_back(phase.to);
               if (phase.at_time)
                 for (unsigned int c = 0; c < 3; ++c)
-                  look_at([&, c](const double t) { return phase.at_time(t)[c]; },
+                  // the formula need not be defined outside its phase
+                  look_at([&, c](const double t) { return phase.at_time(std::clamp(t, phase.from, phase.to))[c]; },
                           std::max(0., phase.from),
                           std::min(end_time, phase.to));
             }

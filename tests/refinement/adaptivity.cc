@@ -499,10 +499,10 @@ namespace
     EXPECT_NEAR(count(function) / Scene(function, context).report.n_cells, 1., 0.05);
 
     // more than could ever be made
-    const Parameters hopeless = {{"Mesh refinement/Criteria", "uniform, bed faces"},
+    const Parameters hopeless = {{"Mesh refinement/Criteria", "function"},
                                  {"Mesh refinement/Finest cell size", "0.001"},
                                  {"Mesh refinement/Max levels", "25"},
-                                 {"Mesh refinement/Criteria: uniform/Cell size", "0.001"}};
+                                 {"Mesh refinement/Criteria: function/Cell size", "if(x < 1e-9, 4, 0.001)"}};
     EXPECT_NEAR(count(hopeless) / std::pow(64e3, 2), 1.05, 0.05); // halves of halves: 2^16 along a side
     EXPECT_TRUE(contains(error_of([&] { Scene(hopeless, context); }), "ask for about 4.3e+09 cells"));
   }

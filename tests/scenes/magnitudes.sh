@@ -38,7 +38,7 @@ table 0.003,0.003,1e-4,2630,1e300
 refused 'table.csv, line 3: a velocity = 1e\+300: expected' "${own[@]}"
 
 # a grain that is small beside the others: it is named, not the one that moves
-table 0.003,0.003,2e-9,2630,0
-refused 'Grain 1 at \(0.003, 0.003\) m has a radius of 2e-09 m' "${own[@]}" --set Fluid/Model=none
-table 0.001,0.001501,1e-6,2630,0
-refused 'Grain 1 at \(0.001, 0.001501\) m, of diameter 2e-06 m, overlaps grain 0' "${own[@]}" --set 'Grains/Overlap tolerance=1e-9'
+printf 'x,y,radius,density,vx\n0.001,0.001,5e-4,2630,10\n0.003,0.003,2e-9,2630,0\n' >table.csv
+must_fail 'Grain 1 at \(0.003, 0.003\) m has a radius of 2e-09 m' 1 tiny.prm "${own[@]}" --set Fluid/Model=none
+table 0.001,0.0015005,1e-6,2630,0
+refused 'Grain 1 at \(0.001, 0.0015005\) m, of diameter 2e-06 m, overlaps grain 0' "${own[@]}" --set 'Grains/Overlap tolerance=1e-9'
