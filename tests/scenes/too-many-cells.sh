@@ -57,4 +57,4 @@ $Elements
 8 3 2 5 1 6 3 4 5
 $EndElements
 END
-refused 'ask for about' --set 'Domain/Mesh file=two.msh' --set "$fine" --set 'Mesh refinement/Criteria: bed faces/Cell size at the top=0.001'
+refused 'ask for about' --set 'Domain/Mesh file=two.msh' --set 'Mesh refinement/Max cells=1e7' --set "$fine" --set 'Mesh refinement/Criteria: bed faces/Cell size at the top=0.001'
