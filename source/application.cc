@@ -146,7 +146,11 @@ namespace alluvium
       scene::declare_method(prm);
       scene::declare_shared_libraries(prm);
       simulation.add_parameters(prm);
-      scene::read_parameters(prm, command_line.scene, command_line.assignments, Simulation::paper_method());
+      const auto warnings =
+        scene::read_parameters(prm, command_line.scene, command_line.assignments, Simulation::paper_method());
+      if (is_first_rank)
+        for (const std::string &warning : warnings)
+          std::cerr << "alluvium: warning: " << warning << std::endl;
       scene::set_shared_libraries(prm, libraries);
 
       if (command_line.print_parameters)

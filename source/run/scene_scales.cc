@@ -16,7 +16,7 @@ namespace alluvium::run
 
   namespace
   {
-    using Kind = fluid::BoundaryConditions<Model::dim>::Kind;
+    using Velocity = fluid::BoundaryKind<Model::dim>::Velocity;
 
     /** Some points of the boundary of @p name, or of the domain where it is a part of a side. */
     std::vector<Point<2>> points_of(const Model &m, const std::string &name)
@@ -56,7 +56,8 @@ namespace alluvium::run
     {
       double       head = 0., velocity = 0., force = 0.; // differences of the reduced pressure [Pa], [m/s], [N/m^3]
       double       time   = SceneScales::infinity;       // in which the fastest of them changes [s]
-      unsigned int n_open = 0;                           // boundaries with a given pressure or velocity
+      unsigned int n_open = 0;                           // boundaries that fluid passes
+      bool         is_unknown = false;                   // one of them lets pass nobody knows how much
     };
 
     Drive find_drive(Model &m, const double end)
@@ -76,11 +77,16 @@ namespace alluvium::run
           double low = SceneScales::infinity, high = -low, fastest = 0.;
           for (const auto &[id, condition] : conditions.all())
             {
-              if (condition.kind != Kind::pressure && condition.kind != Kind::velocity)
+              if (!condition.kind->lets_fluid_pass())
                 continue;
               drive.n_open += i == 0;
+              if (!condition.kind->gives_pressure() && condition.kind->velocity() != Velocity::given)
+                {
+                  drive.is_unknown = true;
+                  continue;
+                }
               for (const Point<2> &x : points_of(m, condition.name))
-                if (condition.kind == Kind::pressure)
+                if (condition.kind->gives_pressure())
                   {
                     const double p = conditions.value(condition, x) - rho * (m.gravity[0] * x[0] + m.gravity[1] * x[1]);
                     low            = std::min(low, p);
@@ -109,6 +115,11 @@ namespace alluvium::run
           drive.time  = std::min(drive.time, force.time());
         }
       m.solver.driving_force(now);
+      if (drive.is_unknown)
+        {
+          drive.velocity = SceneScales::infinity;
+          drive.time     = 0.;
+        }
       return drive;
     }
 
@@ -211,7 +222,8 @@ namespace alluvium::run
       s.dt = std::min(schedule.end_time, 0.5 * s.diameter / s.settling_speed); // as far as grains may go
 
     for (const auto &[id, condition] : m.boundary_conditions.all())
-      s.has_no_slip = s.has_no_slip || condition.kind == Kind::no_slip;
+      s.has_no_slip = s.has_no_slip || condition.kind->velocity() == Velocity::zero ||
+                      (condition.kind->has_terms() && !condition.kind->lets_fluid_pass());
     const double height   = size[1 - m.upright().vertical];
     s.bed_height          = m.initial_bed.empty() ? 0. : m.initial_bed.top() - m.initial_bed.bottom();
     s.clear_height        = std::max(0., height - s.bed_height);

@@ -1,4 +1,6 @@
 // The size of each term of the momentum equation, in a flow for which it is known.
+#include "fixtures/boundary_kinds.h"
+
 #include <alluvium/fluid/flow_terms.h>
 #include <alluvium/fluid/vans_solver.h>
 
@@ -36,7 +38,7 @@ TEST(FlowTerms, AreThoseOfAKnownFlow)
   GridGenerator::hyper_cube(tria);
   tria.refine_global(6);
   BoundaryConditions<2> bc;
-  bc.set(0, {BoundaryConditions<2>::Kind::no_slip, "walls", nullptr});
+  bc.set(0, {boundary_kinds::no_slip, "walls", nullptr});
   bc.pin(true);
   FluidSpace<2> space(tria);
   space.reinit(bc);
