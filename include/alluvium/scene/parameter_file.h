@@ -37,18 +37,21 @@ namespace alluvium::scene
    */
   void apply_statements(dealii::ParameterHandler &prm, const std::vector<Statement> &statements);
 
-  /** Declare the top-level parameter Method, the one choice that changes the defaults of others. */
+  /** Declare the top-level parameter Method, a choice that changes the defaults of others, as Accuracy does. */
   void declare_method(dealii::ParameterHandler &prm);
 
-  /** If @p statements choose the method of the paper, set @p paper_method in @p prm: to be called before they are
-   * applied. */
-  void apply_method(dealii::ParameterHandler     &prm,
-                    const std::vector<Statement> &statements,
-                    const ParameterOverrides     &paper_method);
+  /** What `Method` sets, if @p statements choose the method of the paper: what @p paper_method says; it comes before
+   * them. */
+  std::vector<Statement> method_statements(const dealii::ParameterHandler &prm,
+                                           const std::vector<Statement>   &statements,
+                                           const ParameterOverrides       &paper_method);
 
-  /** All of the above in order: the file (if the name is not empty), then the @p assignments of the command line. */
-  void read_parameters(dealii::ParameterHandler       &prm,
-                       const std::string              &file_name,
-                       const std::vector<std::string> &assignments,
-                       const ParameterOverrides       &paper_method);
+  /**
+   * All of the above in order: the file (if the name is not empty), then the @p assignments of the command line. Returns
+   * what `Accuracy` has chosen, in lines for the scene's report.
+   */
+  std::vector<std::string> read_parameters(dealii::ParameterHandler       &prm,
+                                           const std::string              &file_name,
+                                           const std::vector<std::string> &assignments,
+                                           const ParameterOverrides       &paper_method);
 } // namespace alluvium::scene

@@ -1,0 +1,103 @@
+"""What `Accuracy` chooses.
+
+Five scenes that say nothing of how they are computed: the flux through a fixed bed; onset and heave of a bed under a rising head; the fall of a
+suspension; the runout of a dry column; a jet through a bed, its head and the grains that it moves. They are computed with what
+`Accuracy = 10 %`, `1 %` and `0.1 %` choose, and with a scan: one group of parameters at a time at other levels than a base, and what is
+chosen with one group a level looser. Errors are measured against the converged references of the other studies: the flux that theirs tend to with finer
+cells, the closed form of the onset, and their finest runs. What these do not know themselves is hatched.
+"""
+import csv
+import os
+
+import numpy as np
+
+from laboratory import accuracy
+from laboratory.study import Chart, Missing, Point
+
+order = 0
+chart = Chart()
+limit = 300
+HERE = os.path.dirname(os.path.abspath(__file__))
+
+# scene: its kind, what is measured of it
+SCENES = {"flux": ("bed", ["flux"]), "heave": ("bed", ["onset", "heave"]), "settling": ("even", ["fall"]), "runout": ("dry", ["runout", "overlap"]), "jet": ("even", ["head", "grains moved"])}
+# what the studies that the references are of say that they do not know
+floor = {"flux": 5e-4, "heave": 2.5e-3, "fall": 1e-3, "runout": 0.02, "head": 7.5e-3, "grains moved": 0.016}
+
+
+def of_study(name, label, value):
+    """A value of a point of another study."""
+    with open(os.path.join(HERE, "..", name, "results.csv"), newline="") as file:
+        return next(float(row["value: " + value]) for row in csv.DictReader(file) if row["label"] == label)
+
+
+def limit_of(values):
+    """What values at cells of 4 h, 2 h and h tend to (Aitken)."""
+    a, b, c = values
+    return c - (c - b) ** 2 / (c - b - (b - a))
+
+
+reference = {
+    "flux [m2/s]": limit_of([of_study("fixed-bed-flux", "smooth %s d" % h, "flux [m2/s]") for h in ("1", "0.5", "0.25")]),
+    "onset over exact": 1.0,
+    "heave [H]": of_study("fluidised-bed", "to 0.5 d, 0.1 ms", "heave [H]"),
+    "fall [m]": of_study("settling-suspension", "0.5 d, 0.5 ms", "fall [m]"),
+    "fluctuations [m/s]": of_study("settling-suspension", "0.5 d, 0.5 ms", "fluctuations [m/s]"),
+    "runout [m]": of_study("dry-column", "0.1 ms, contacts 1e-6", "spreading [m]"),
+    "overlap / d": 0.0,
+    "head [m]": of_study("jet-through-bed", "0.5 d, 0.5 ms", "head [m]"),
+    "grains moved": of_study("jet-through-bed", "0.5 d, 0.5 ms", "moved"),
+}
+NAMES = {"flux": "flux [m2/s]", "onset": "onset over exact", "heave": "heave [H]", "fall": "fall [m]", "runout": "runout [m]", "overlap": "overlap / d", "head": "head [m]", "grains moved": "grains moved"}
+
+
+def point(series, scene, label, settings, shown=""):
+    pictures = {"settling": {"Output/Interval of pictures": 0.05}, "runout": {"Output/Interval of pictures": 0.12}}
+    return Point(series, "%s: %s" % (scene, label), {**pictures.get(scene, {}), **settings}, scene=scene + ".prm", shown=shown)
+
+
+def groups_of(scene):
+    kind, _ = SCENES[scene]
+    return [group for group in accuracy.LEVELS[kind] if scene != "flux" or group not in ("contacts", "coupling")]  # its discs are fixed
+
+
+def name_of(scene, group, level):
+    """Series and label of a scan's point."""
+    if level == accuracy.base(SCENES[scene][0])[group]:
+        return "base of the scan", scene + ": base"
+    return "scan: " + group, "%s: %s %s" % (scene, group, level)
+
+
+def points(quick):
+    for scene, (kind, _) in SCENES.items():
+        if quick and scene not in ("flux", "settling"):
+            continue
+        base = accuracy.base(kind)
+        yield point("base of the scan", scene, "base", accuracy.settings(kind, base))
+        for group in groups_of(scene):
+            for level in [] if quick else accuracy.LEVELS[kind][group]:
+                if level != base[group]:
+                    yield point("scan: " + group, scene, "%s %s" % (group, level), accuracy.settings(kind, {**base, group: level}))
+
+
+def measure(run, point):
+    scene = point.scene.replace(".prm", "")
+    steps = {"steps": run.summary["run"]["steps"]}
+    if scene == "flux":
+        return {"flux [m2/s]": run.last("flux_top_m2_per_s"), **steps}
+    if scene == "heave":
+        return {"onset over exact": run.summary["onset by force balance"]["over_exact"], "heave [H]": 0.7 + run.summary["total heave"]["time_s"],
+                "first movement [H]": 0.7 + run.summary["first movement"]["time_s"], **steps}
+    if scene == "jet":
+        late = (run.time > 0.0195) & (run.time < 0.0605)
+        return {"head [m]": run.columns["differential_head_m"][late].mean(), "grains moved": run.at(0.06, "moved_mass_fraction"), **steps}
+    pictures = run.pictures("grains")
+    mean = lambda grains, k: np.average(grains.points[:, k], weights=grains.fields["radius"] ** 2)
+    way = lambda k: mean(pictures[-1][1], k) - mean(pictures[0][1], k)
+    if scene == "settling":
+        return {"fall [m]": -way(1), "fluctuations [m/s]": run.last("settling_speed_rms_m_per_s"), **steps}
+    return {"runout [m]": way(0), "overlap / d": run.summary["audit"]["largest_penetration_over_d"], **steps}
+
+
+def error(values, reference):
+    return {name: abs(values[key] / reference[key] - 1) if reference[key] else values[key] for name, key in NAMES.items() if key in values}
