@@ -4,7 +4,6 @@ Each kind of scene has groups of parameters, and each group levels, from loose t
 at other levels than a tight base; what a result then differs by from the group's tightest level is the error of that level alone. Of an
 accuracy each group may use its share, and takes the loosest level that does with it on all scenes of its kind."""
 
-import csv
 import json
 import os
 import re
@@ -30,17 +29,21 @@ def at_faces(h):
 SMOOTH = [("Coupling/Filter radius", "2.5 d"), ("Coupling/Filter shape", "smooth")]
 STEPS = {t: [("Time/Time step", "auto"), ("Time/Automatic time step/Tolerance", t)] for t in ("1", "0.2", "0.05", "0.01")}
 CONTACTS = {c: [("Contacts/Residual tolerance", c), ("Contacts/Largest violation", v)] for c, v in (("1e-1", "0.5"), ("1e-2", "0.5"), ("1e-3", "0.1"), ("4e-5", "0.01"))}
-LINEAR = {t: [("Fluid/Linear solver/Tolerance", t)] for t in ("1e-2", "1e-3", "1e-4", "1e-6")}
-COUPLING = {t: [("Coupling/Time scheme: iterated/Tolerance", t)] for t in ("0.3", "0.1", "0.03", "0.01")}
+IN_FLUID = {"time step": STEPS, "contacts": {level: CONTACTS[level] for level in list(CONTACTS)[1:]},
+            "coupling": {t: [("Coupling/Time scheme: iterated/Tolerance", t)] for t in ("0.1", "0.01")},
+            "linear solver": {t: [("Fluid/Linear solver/Tolerance", t)] for t in ("1e-3", "1e-4", "1e-6")}}
+EVEN = {**IN_FLUID, "cells": {h + " d": even(h) for h in ("8", "4", "2", "1")}}
 
 # group: {level: settings}, from loose to tight
 LEVELS = {
-    "bed": {"time step": STEPS, "contacts": CONTACTS, "coupling": COUPLING, "linear solver": LINEAR,
-            "cells": {"4 d": at_faces("4"), "2 d": at_faces("2"), "1 d": at_faces("1"), "0.5 d": at_faces("0.5") + SMOOTH}},
-    "even": {"time step": STEPS, "contacts": CONTACTS, "coupling": COUPLING, "linear solver": LINEAR, "cells": {h + " d": even(h) for h in ("8", "4", "2", "1")}},
+    "bed": {**IN_FLUID, "cells": {"4 d": at_faces("4"), "2 d": at_faces("2"), "1 d": at_faces("1"), "0.5 d": at_faces("0.5") + SMOOTH}},
+    "suspension": EVEN,
+    "other": EVEN,
     "dry": {"time step": STEPS, "contacts": CONTACTS},
 }
-BASE = {"time step": "0.05", "contacts": "4e-5", "coupling": "0.01", "linear solver": "1e-6", "cells": {"bed": "1 d", "even": "2 d"}}
+BASE = {"time step": "0.05", "contacts": "4e-5", "coupling": "0.01", "linear solver": "1e-6", "cells": {"bed": "1 d", "suspension": "2 d", "other": "2 d"}}
+# where grains hardly meet, these are chosen as for another kind
+AS_FOR = {("suspension", "contacts"): "other", ("suspension", "coupling"): "other"}
 
 
 def base(kind):
@@ -54,8 +57,8 @@ def settings(kind, levels):
 
 # --- choosing
 
-# Of the accuracy that is asked for, what each group may use; the squares add up to 1, since errors seldom have the same sign
-SHARES = {"cells": 0.85, "time step": 0.5, "contacts": 0.1, "coupling": 0.1, "linear solver": 0.1}
+# Of the accuracy that is asked for, what each group may use. Errors seldom add up; what is chosen is run as a whole, too
+SHARES = {"cells": 1.0, "time step": 0.5, "contacts": 0.1, "coupling": 0.1, "linear solver": 0.1}
 
 
 class Choice:
@@ -73,11 +76,11 @@ class Choice:
 
 
 def own_errors(study, results, kind, group):
-    """{level: {quantity: what it differs by from the tightest level}}, from loose to tight, on the scenes of a kind."""
+    """{level: {quantity: what it differs by from the tightest level}}, from loose to tight, on the scenes that tell."""
     module, found = study.module, {level: {} for level in LEVELS[kind][group]}
     tightest = list(found)[-1]
     for scene, (of, quantities) in module.SCENES.items():
-        if of != kind or group not in module.groups_of(scene):
+        if of != AS_FOR.get((kind, group), kind) or group not in module.groups_of(scene):
             continue
         values = {level: results.done(*module.name_of(scene, group, level)).values for level in found}
         for level in found:
@@ -94,8 +97,7 @@ def choose(study, results):
         for accuracy, target in ACCURACIES.items():
             for group in groups:
                 errors = own_errors(study, results, kind, group)
-                unknown = lambda name: results.floor(name) > 0.5 * target  # two runs differ by that, whatever their level
-                allowed = lambda name: max(SHARES[group] * target, results.floor(name) if unknown(name) else 0.0)
+                allowed = lambda name: max(SHARES[group] * target, results.floor(name))  # equally good runs differ by the floor
                 level = list(errors)[-1]
                 for looser in list(errors)[-2::-1]:
                     if any(error > allowed(name) for name, error in errors[looser].items()):
@@ -140,3 +142,47 @@ def write_table(choices, version):
     text += ["    };", "    // clang-format on", "    return table;", "  }", "} // namespace alluvium::scene", ""]
     with open(TABLE, "w") as file:
         file.write("\n".join(text))
+
+
+def chosen_settings(kind, accuracy):
+    return settings(kind, chosen_levels(kind, accuracy))
+
+
+# --- README.md
+
+def readme_table(study, results):
+    """Lines: for each accuracy what is chosen, how far off it is, and what it costs."""
+    module = study.module
+    out = ["| `Accuracy` | it chooses: error of a step, of contacts, cells (at a bed's faces; in a suspension; elsewhere) | largest error on five scenes, in what was asked | their CPU time | over the cheapest found |", "|---|---|---|---|---|"]
+    for asked in ACCURACIES:
+        chosen = [chosen_levels(kind, asked) for kind in LEVELS]
+        both = lambda group: "; ".join(dict.fromkeys(levels[group] for levels in chosen if group in levels))
+        seconds = sum(results.cpu(module.CHOSEN, "%s: %s" % (scene, asked)) for scene in module.SCENES)
+        ratio, name = module.worst(results, asked)
+        costs = [module.cost(results, scene, asked) for scene in module.SCENES]
+        out.append("| %s | %s, %s, %s | %s (%s) | %s s | %s to %s |" % (asked, both("time step"), both("contacts"), both("cells"), number(ratio, 2), name, number(seconds, 2), number(min(costs), 2), number(max(costs), 2)))
+    return out
+
+
+def write_readme(lines):
+    name = os.path.join(ROOT, "README.md")
+    with open(name) as file:
+        text = file.read()
+    start, rest = text.split(MARKS[0])
+    with open(name, "w") as file:
+        file.write(start + MARKS[0] + "\n\n" + "\n".join(lines) + "\n" + MARKS[1] + rest.split(MARKS[1])[1])
+
+
+def renew(study, results_of):
+    """Table and README.md from the study's results; what to do next, in lines."""
+    results = results_of(study)
+    choices = choose(study, results)
+    before = [(c[0], c[1], c[2], c[3]) for c in rows()]
+    now = [(c.kind, c.accuracy, c.group, [list(pair) for pair in LEVELS[c.kind][c.group][c.level]]) for c in choices]
+    write_table(choices, ", ".join(sorted({r.version for r in results})))
+    yield TABLE
+    if now != before:
+        yield "it has changed: run `contrib/lab accuracy`, which runs what is chosen now, and `contrib/lab choose` once more"
+        return
+    write_readme(readme_table(study, results))
+    yield os.path.join(ROOT, "README.md")

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace alluvium::scene
 {
@@ -46,12 +47,13 @@ namespace alluvium::scene
       return to_string(own.path) + " = " + own.value + " (" + own.origin + ")";
     }
 
-    /** What drives the fluid elsewhere than through the sides below and above a bed, or nothing. */
-    std::string other_drive(const std::function<std::string(const std::string &)> &value_of)
+    /** What else the fluid does than to come and go through the sides below and above a bed, or nothing. */
+    std::string other_flow(const std::function<std::string(const std::string &)> &value_of)
     {
       const bool                     along_x = is_along_x(value_of("Gravity"));
       const std::vector<std::string> faces =
         along_x ? std::vector<std::string>{"left", "right"} : std::vector<std::string>{"bottom", "top"};
+      std::set<std::string> open;
       for (const std::string section : {"Pressure", "Velocity", "Plug-ins"})
         for (const auto &[name, value] : named_values(value_of("Boundary conditions/" + section)))
           {
@@ -60,11 +62,12 @@ namespace alluvium::scene
             const auto components = dealii::Utilities::split_string_list(value, '|');
             if (section == "Velocity" && components.size() == 2 && components[along_x ? 0 : 1] == "0")
               return "'" + name + "' moves along the bed";
+            open.insert(name);
           }
       for (const std::string name : {"Body force", "Mean pressure gradient"})
         if (value_of("Fluid/" + name).find_first_not_of("0. |") != std::string::npos)
           return "Fluid/" + name + " drives the fluid";
-      return "";
+      return open.size() == faces.size() ? "" : "no fluid goes through '" + faces[0] + "' and '" + faces[1] + "'";
     }
   } // namespace
 
@@ -80,17 +83,17 @@ namespace alluvium::scene
     if (value_of("Fluid/Model") == "none")
       return {"dry", "dry grains"};
     const std::string deposit = value_of("Grains/Deposit");
+    if (deposit == "random suspension")
+      return {"suspension", "a suspension: cells are even"};
     if (deposit != "settled bed")
-      return {"even",
-              deposit == "random suspension" ? "a suspension: cells are even" :
-                                               "grains of which it is not known before they are there whether they are "
-                                               "a bed (Deposit = " +
-                                                 deposit + "): cells are even"};
+      return {"other",
+              "grains of which it is not known before they are there whether they are a bed (Deposit = " + deposit +
+                "): cells are even"};
     if (!value_of("Grains/Deposit: settled bed/Box").empty())
-      return {"even", "a bed in a box, not all over the floor: cells are even"};
-    const std::string drive = other_drive(value_of);
-    if (!drive.empty())
-      return {"even", drive + ": cells are even"};
+      return {"other", "a bed in a box, not all over the floor: cells are even"};
+    const std::string flow = other_flow(value_of);
+    if (!flow.empty())
+      return {"other", flow + ": cells are even"};
     return {"bed", "a bed whose fluid comes and goes through its two faces: cells are fine along these"};
   }
 

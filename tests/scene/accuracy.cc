@@ -29,7 +29,7 @@ namespace
                                                                            {"Grains/Deposit", "settled bed"},
                                                                            {"Grains/Deposit: settled bed/Box", ""},
                                                                            {"Domain/Mesh file", ""},
-                                                                           {"Boundary conditions/Pressure", ""},
+                                                                           {"Boundary conditions/Pressure", "top: 0; bottom: 1"},
                                                                            {"Boundary conditions/Velocity", ""},
                                                                            {"Boundary conditions/Plug-ins", ""}})
         declare(name, value);
@@ -99,7 +99,7 @@ TEST_F(Accuracy, HasEveryKindAndAccuracy)
   for (const std::string accuracy : {"10 %", "1 %", "0.1 %"})
     {
       EXPECT_EQ(groups["dry, " + accuracy], (std::set<std::string>{"time step", "contacts"}));
-      for (const std::string kind : {"bed, ", "even, "})
+      for (const std::string kind : {"bed, ", "suspension, ", "other, "})
         EXPECT_EQ(groups[kind + accuracy],
                   (std::set<std::string>{"time step", "contacts", "coupling", "linear solver", "cells"}));
     }
@@ -182,14 +182,17 @@ TEST_F(Accuracy, TellsKindsOfScenes)
   EXPECT_EQ(kind({{pressure, "top: 0; bottom: rho*g*H*(1 + t)"}}), "bed");
   EXPECT_EQ(kind({{pressure, "top: 0"}, {velocity, "bottom: 0 | 0.01*t"}}), "bed");
   EXPECT_EQ(kind({{"Gravity", "9.81, 0.1"}, {pressure, "left: 0; right: 9"}}), "bed");
-  for (const std::string deposit : {"random suspension", "lattice", "file", "end of a run", "none"})
-    EXPECT_EQ(kind({{"Grains/Deposit", deposit}}), "even") << deposit;
-  EXPECT_EQ(kind({{"Grains/Deposit: settled bed/Box", "0, 0, 1, 1"}}), "even");
-  EXPECT_EQ(kind({{pressure, "top: 0"}, {velocity, "slot: 0 | 0.05"}}), "even"); // a jet
-  EXPECT_EQ(kind({{pressure, "left: 9; right: 0"}}), "even");
-  EXPECT_EQ(kind({{"Gravity", "9.81, 0"}, {pressure, "top: 0"}}), "even");
-  EXPECT_EQ(kind({{velocity, "top: 0.5*min(1, t/0.1) | 0"}}), "even"); // a lid that moves
-  EXPECT_EQ(kind({{"Boundary conditions/Plug-ins", "top: free"}}), "bed");
-  EXPECT_EQ(kind({{"Fluid/Body force", "rho*0.5 | 0"}}), "even");
-  EXPECT_EQ(kind({{"Fluid/Mean pressure gradient", "-500 | 0"}}), "even");
+  EXPECT_EQ(kind({{"Grains/Deposit", "random suspension"}}), "suspension");
+  for (const std::string deposit : {"lattice", "file", "end of a run", "none"})
+    EXPECT_EQ(kind({{"Grains/Deposit", deposit}}), "other") << deposit;
+  EXPECT_EQ(kind({{"Grains/Deposit: settled bed/Box", "0, 0, 1, 1"}}), "other");
+  EXPECT_EQ(kind({{pressure, "top: 0"}, {velocity, "slot: 0 | 0.05"}}), "other"); // a jet
+  EXPECT_EQ(kind({{pressure, "left: 9; right: 0"}}), "other");
+  EXPECT_EQ(kind({{"Gravity", "9.81, 0"}}), "other");
+  EXPECT_EQ(kind({{pressure, "top: 0"}}), "other"); // nothing goes through the bed
+  EXPECT_EQ(kind({{pressure, ""}}), "other");
+  EXPECT_EQ(kind({{pressure, "bottom: 1"}, {velocity, "top: 0.5*min(1, t/0.1) | 0"}}), "other"); // a lid that moves
+  EXPECT_EQ(kind({{pressure, "bottom: 1"}, {"Boundary conditions/Plug-ins", "top: free"}}), "bed");
+  EXPECT_EQ(kind({{"Fluid/Body force", "rho*0.5 | 0"}}), "other");
+  EXPECT_EQ(kind({{"Fluid/Mean pressure gradient", "-500 | 0"}}), "other");
 }

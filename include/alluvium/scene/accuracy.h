@@ -25,7 +25,7 @@ namespace alluvium::scene
   /** Which of the measured scenes a scene is like. */
   struct AccuracyKind
   {
-    std::string name;   // 'dry', 'bed': one with two faces that fluid goes through, 'even': any other with fluid
+    std::string name;   // 'dry', 'bed': one with two faces that fluid goes through, 'suspension', 'other'
     std::string reason; // in words, for the scene's report
   };
 
