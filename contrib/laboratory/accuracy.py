@@ -6,7 +6,6 @@ accuracy each group may use its share, and takes the loosest level that does wit
 
 import json
 import os
-import re
 
 from . import ROOT
 from .study import number, percent
@@ -42,6 +41,7 @@ LEVELS = {
     "dry": {"time step": STEPS, "contacts": CONTACTS},
 }
 BASE = {"time step": "0.05", "contacts": "4e-5", "coupling": "0.01", "linear solver": "1e-6", "cells": {"bed": "1 d", "suspension": "2 d", "other": "2 d"}}
+COARSER = {"filter": "cells"}  # a group of the table: that of LEVELS with which it is chosen
 # where grains hardly meet, these are chosen as for another kind
 AS_FOR = {("suspension", "contacts"): "other", ("suspension", "coupling"): "other"}
 
@@ -124,11 +124,22 @@ def rows():
 
 def chosen_levels(kind, accuracy):
     """{group: level} that the program's table has."""
-    found = {}
-    for of, wanted, group, values, _ in rows():
+    values = {}
+    for of, wanted, group, pairs, _ in rows():
         if (of, wanted) == (kind, accuracy):
-            found[group] = next(level for level, settings in LEVELS[kind][group].items() if [list(pair) for pair in settings] == values)
-    return found
+            values[COARSER.get(group, group)] = values.get(COARSER.get(group, group), []) + pairs
+    return {group: next(level for level, settings in LEVELS[kind][group].items() if [list(pair) for pair in settings] == pairs) for group, pairs in values.items()}
+
+
+def table(choices):
+    """Rows of the table: the filter, chosen with the cells, is a group that a scene may have its own of."""
+    out = []
+    for c in choices:
+        parts = {c.group: []}
+        for pair in LEVELS[c.kind][c.group][c.level]:
+            parts.setdefault("filter" if pair[0].startswith("Coupling/Filter") else c.group, []).append(list(pair))
+        out += [[c.kind, c.accuracy, group, pairs, c.reason] for group, pairs in parts.items()]
+    return out
 
 
 def write_table(choices, version):
@@ -136,9 +147,9 @@ def write_table(choices, version):
             "namespace alluvium::scene", "{", "  inline const std::vector<AccuracyChoice> &accuracy_table()", "  {",
             "    // clang-format off", "    static const std::vector<AccuracyChoice> table = {"]
     quoted = json.dumps
-    for c in choices:
-        values = ", ".join("{%s, %s}" % (quoted(name), quoted(value)) for name, value in LEVELS[c.kind][c.group][c.level])
-        text.append("      {%s, %s, %s, {%s}, %s}," % (quoted(c.kind), quoted(c.accuracy), quoted(c.group), values, quoted(c.reason)))
+    for kind, accuracy, group, pairs, reason in table(choices):
+        values = ", ".join("{%s, %s}" % (quoted(name), quoted(value)) for name, value in pairs)
+        text.append("      {%s, %s, %s, {%s}, %s}," % (quoted(kind), quoted(accuracy), quoted(group), values, quoted(reason)))
     text += ["    };", "    // clang-format on", "    return table;", "  }", "} // namespace alluvium::scene", ""]
     with open(TABLE, "w") as file:
         file.write("\n".join(text))
@@ -153,14 +164,14 @@ def chosen_settings(kind, accuracy):
 def readme_table(study, results):
     """Lines: for each accuracy what is chosen, how far off it is, and what it costs."""
     module = study.module
-    out = ["| `Accuracy` | it chooses: error of a step, of contacts, cells (at a bed's faces; in a suspension; elsewhere) | largest error on five scenes, in what was asked | their CPU time | over the cheapest found |", "|---|---|---|---|---|"]
+    out = ["| `Accuracy` | it chooses: error of a step, of contacts, cells (at a bed's faces; in a suspension; elsewhere) | largest error on five scenes, for what is known of them | their CPU time | over the cheapest found |", "|---|---|---|---|---|"]
     for asked in ACCURACIES:
         chosen = [chosen_levels(kind, asked) for kind in LEVELS]
         both = lambda group: "; ".join(dict.fromkeys(levels[group] for levels in chosen if group in levels))
         seconds = sum(results.cpu(module.CHOSEN, "%s: %s" % (scene, asked)) for scene in module.SCENES)
-        ratio, name = module.worst(results, asked)
+        _, error, name = module.worst(results, asked)
         costs = [module.cost(results, scene, asked) for scene in module.SCENES]
-        out.append("| %s | %s, %s, %s | %s (%s) | %s s | %s to %s |" % (asked, both("time step"), both("contacts"), both("cells"), number(ratio, 2), name, number(seconds, 2), number(min(costs), 2), number(max(costs), 2)))
+        out.append("| %s | %s, %s, %s | %s (%s) | %s s | %s to %s |" % (asked, both("time step"), both("contacts"), both("cells"), percent(error), name, number(seconds, 2), number(min(costs), 2), number(max(costs), 2)))
     return out
 
 
@@ -177,8 +188,7 @@ def renew(study, results_of):
     """Table and README.md from the study's results; what to do next, in lines."""
     results = results_of(study)
     choices = choose(study, results)
-    before = [(c[0], c[1], c[2], c[3]) for c in rows()]
-    now = [(c.kind, c.accuracy, c.group, [list(pair) for pair in LEVELS[c.kind][c.group][c.level]]) for c in choices]
+    before, now = [row[:4] for row in rows()], [row[:4] for row in table(choices)]
     write_table(choices, ", ".join(sorted({r.version for r in results})))
     yield TABLE
     if now != before:

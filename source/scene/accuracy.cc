@@ -139,6 +139,11 @@ namespace alluvium::scene
       {
         if (choice.kind != kind.name || choice.accuracy != accuracy)
           continue;
+        // of no use there
+        if ((choice.group == "contacts" || choice.group == "coupling") && value_of("Grains/Fixed") == "true")
+          continue;
+        if (choice.group == "coupling" && value_of("Coupling/Time scheme") != "iterated")
+          continue;
         std::string left_alone;
         if (choice.group == "cells" && !value_of("Domain/Mesh file").empty())
           left_alone = "those of Domain/Mesh file, " + value_of("Domain/Mesh file");

@@ -23,8 +23,7 @@ found = [running.from_row(rows[p.series, p.label], p) for p in points]
 studied.compare(found)
 results = Results(found, studied.get("floor"))
 choices = accuracy.choose(studied, results)
-wanted = [[c.kind, c.accuracy, c.group, [list(pair) for pair in accuracy.LEVELS[c.kind][c.group][c.level]], c.reason] for c in choices]
-assert accuracy.rows() == wanted, "run contrib/lab choose: source/scene/accuracy_table.h is not what the results give"
+assert accuracy.rows() == accuracy.table(choices), "run contrib/lab choose: source/scene/accuracy_table.h is not what the results give"
 with open(os.path.join(ROOT, "README.md")) as readme:
     assert "\n".join(accuracy.readme_table(studied, results)) in readme.read(), "run contrib/lab choose: README.md"
 

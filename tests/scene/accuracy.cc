@@ -27,6 +27,8 @@ namespace
                                                                            {"Fluid/Body force", "0 | 0"},
                                                                            {"Fluid/Mean pressure gradient", "0 | 0"},
                                                                            {"Grains/Deposit", "settled bed"},
+                                                                           {"Grains/Fixed", "false"},
+                                                                           {"Coupling/Time scheme", "iterated"},
                                                                            {"Grains/Deposit: settled bed/Box", ""},
                                                                            {"Domain/Mesh file", ""},
                                                                            {"Boundary conditions/Pressure", "top: 0; bottom: 1"},
@@ -96,6 +98,8 @@ TEST_F(Accuracy, HasEveryKindAndAccuracy)
         << choice.kind << ", " << choice.accuracy << ": " << choice.group << " twice";
       EXPECT_FALSE(choice.reason.empty());
     }
+  for (auto &[name, found] : groups)
+    found.erase("filter"); // that of the default, but for the finest cells
   for (const std::string accuracy : {"10 %", "1 %", "0.1 %"})
     {
       EXPECT_EQ(groups["dry, " + accuracy], (std::set<std::string>{"time step", "contacts"}));
@@ -144,6 +148,36 @@ TEST_F(Accuracy, TheScenesOwnSettingsWin)
   EXPECT_EQ(value(tolerance), "0.5");
   EXPECT_EQ(value("Time/Time step"), "auto");
   EXPECT_TRUE(has(lines, tolerance + " = 0.5 (--set '" + tolerance + "=0.5')"));
+}
+
+TEST_F(Accuracy, ChoosesAFilterForFineCells)
+{
+  read({"Accuracy=0.1 %"});
+  EXPECT_EQ(value("Coupling/Filter radius"), "2.5 d");
+  EXPECT_EQ(value("Coupling/Filter shape"), "smooth");
+}
+
+TEST_F(Accuracy, AFilterOfTheScenesOwnStaysWhole)
+{
+  read({"Accuracy=0.1 %", "Coupling/Filter radius=2 d"});
+  EXPECT_EQ(value("Coupling/Filter radius"), "2 d");
+  EXPECT_EQ(value("Coupling/Filter shape"), "as before");
+  EXPECT_EQ(value("Mesh refinement/Criteria"), "bed faces");
+}
+
+TEST_F(Accuracy, LeavesOutWhatIsOfNoUse)
+{
+  const std::string contacts = "Contacts/Residual tolerance", coupling = "Coupling/Time scheme: iterated/Tolerance";
+  EXPECT_FALSE(has(read({"Accuracy=1 %", "Coupling/Time scheme=explicit"}), "coupling: "));
+  EXPECT_EQ(value(coupling), "as before");
+  EXPECT_NE(value(contacts), "as before");
+}
+
+TEST_F(Accuracy, FixedGrainsHaveNoContacts)
+{
+  const auto lines = read({"Accuracy=1 %", "Grains/Fixed=true"});
+  EXPECT_FALSE(has(lines, "contacts: ") || has(lines, "coupling: "));
+  EXPECT_TRUE(has(lines, "time step: "));
 }
 
 TEST_F(Accuracy, CellsOfAMeshFileStay)
