@@ -2,8 +2,10 @@
 
 Five scenes that say nothing of how they are computed: the flux through a fixed bed; onset and heave of a bed under a rising head; the fall of a
 suspension; the runout of a dry column; a jet through a bed, its head and the grains that it moves. They are computed with what
-`Accuracy = 10 %`, `1 %` and `0.1 %` choose, and with a scan: one group of parameters at a time at other levels than a base. Errors are measured against the converged references of the other studies: the flux that theirs tend to with finer
-cells, the closed form of the onset, and their finest runs. What these do not know themselves is hatched.
+`Accuracy = 10 %`, `1 %` and `0.1 %` choose, and with a scan: one group of parameters at a time at other levels than a base. Errors are
+measured against the converged references of the other studies: the flux that theirs tend to with finer cells, the closed form of the onset, and their finest runs. What these do not know themselves is hatched.
+The overlap is the column's largest, in diameters. `contrib/lab choose` makes of the scan what the program chooses: of each group the loosest
+level whose own error is below the group's share of what is asked (all of it for cells, half for steps, a tenth for each tolerance).
 """
 import csv
 import os
@@ -19,7 +21,10 @@ limit = 300
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 # scene: its kind, what is measured of it
-SCENES = {"flux": ("bed", ["flux"]), "heave": ("bed", ["onset", "heave"]), "settling": ("suspension", ["fall"]), "runout": ("dry", ["runout", "overlap"]), "jet": ("other", ["head", "grains moved"])}
+SCENES = {"flux": ("bed", ["flux"]), "heave": ("bed", ["onset", "heave"]), "settling": ("suspension", ["fall"]), "runout": ("dry", ["runout", "overlap"]),
+          "jet": ("other", ["head", "grains moved"])}
+
+
 def of_study(name, label, value, what="value: "):
     """A value of a point of another study, or its error."""
     with open(os.path.join(HERE, "..", name, "results.csv"), newline="") as file:
@@ -54,7 +59,8 @@ reference = {
     "head [m]": of_study("jet-through-bed", "0.5 d, 0.5 ms", "head [m]"),
     "grains moved": of_study("jet-through-bed", "0.5 d, 0.5 ms", "moved"),
 }
-NAMES = {"flux": "flux [m2/s]", "onset": "onset over exact", "heave": "heave [H]", "fall": "fall [m]", "runout": "runout [m]", "overlap": "overlap / d", "head": "head [m]", "grains moved": "grains moved"}
+NAMES = {"flux": "flux [m2/s]", "onset": "onset over exact", "heave": "heave [H]", "fall": "fall [m]", "runout": "runout [m]", "overlap": "overlap / d", "head": "head [m]",
+         "grains moved": "grains moved"}
 
 
 def point(series, scene, label, settings, shown=""):
@@ -64,7 +70,8 @@ def point(series, scene, label, settings, shown=""):
 
 def groups_of(scene):
     kind, _ = SCENES[scene]
-    return [group for group in accuracy.LEVELS[kind] if scene not in ("flux", "settling") or group not in ("contacts", "coupling")]  # fixed discs, and such that hardly meet
+    still = scene in ("flux", "settling")  # fixed discs, and such that hardly meet
+    return [group for group in accuracy.LEVELS[kind] if not (still and group in ("contacts", "coupling"))]
 
 
 def name_of(scene, group, level):
@@ -114,11 +121,10 @@ def error(values, reference):
     return {name: abs(values[key] / reference[key] - 1) if reference[key] else values[key] for name, key in NAMES.items() if key in values}
 
 
-def worst(r, asked, scenes=SCENES):
-    """The largest error of what an accuracy chooses, over what was asked or is not known, and of what."""
-    found = [(r.error(CHOSEN, "%s: %s" % (scene, asked), name) / max(accuracy.ACCURACIES[asked], r.floor(name)), name)
-             for scene in scenes for name in SCENES[scene][1]]
-    return max(found)
+def worst(r, asked):
+    """Of what an accuracy chooses: the largest error over what was asked or is not known; that error; of what."""
+    errors = [(r.error(CHOSEN, "%s: %s" % (scene, asked), name), name) for scene, (_, names) in SCENES.items() for name in names]
+    return max((error / max(accuracy.ACCURACIES[asked], r.floor(name)), error, name) for error, name in errors)
 
 
 def cheapest(r, scene, asked):
@@ -153,9 +159,9 @@ def says(r):
     for asked in accuracy.ACCURACIES:
         costs = {scene: cost(r, scene, asked) for scene in SCENES}
         dearest = max(costs, key=costs.get)
-        ratio, name = worst(r, asked)
+        _, error_of_it, name = worst(r, asked)
         words.append("`%s` is at most %.2g %% off (%s) and costs at most %.2g times the cheapest setting found (%s)"
-                     % (asked, 100 * ratio * max(accuracy.ACCURACIES[asked], r.floor(name)), name, costs[dearest], dearest))
+                     % (asked, 100 * error_of_it, name, costs[dearest], dearest))
     fluctuations = lambda asked: abs(r.value(CHOSEN, "settling: " + asked, "fluctuations [m/s]") / reference["fluctuations [m/s]"] - 1)
     return ("; ".join(words) + ". What is promised are means: fluctuations about the suspension's fall, which live on small cells, are then still %.0f, %.0f and %.0f %% off."
             % tuple(100 * fluctuations(asked) for asked in accuracy.ACCURACIES))
