@@ -42,8 +42,8 @@ LEVELS = {
 }
 BASE = {"time step": "0.05", "contacts": "4e-5", "coupling": "0.01", "linear solver": "1e-6", "cells": {"bed": "1 d", "suspension": "2 d", "other": "2 d"}}
 COARSER = {"filter": "cells"}  # a group of the table: that of LEVELS with which it is chosen
-# where grains hardly meet, these are chosen as for another kind
-AS_FOR = {("suspension", "contacts"): "other", ("suspension", "coupling"): "other"}
+# chosen as for another kind, whose scenes tell better
+AS_FOR = {("suspension", "contacts"): "other", ("suspension", "coupling"): "other", ("suspension", "linear solver"): "bed", ("other", "linear solver"): "bed"}
 
 
 def base(kind):

@@ -69,16 +69,27 @@ def point(series, scene, label, settings, shown=""):
 
 
 def groups_of(scene):
+    """What is scanned there. The linear solver's error grows with fine cells, and is seen best where the flow is steady."""
     kind, _ = SCENES[scene]
     still = scene in ("flux", "settling")  # fixed discs, and such that hardly meet
-    return [group for group in accuracy.LEVELS[kind] if not (still and group in ("contacts", "coupling"))]
+    return [group for group in accuracy.LEVELS[kind] if not (still and group in ("contacts", "coupling")) and (scene == "flux" or group != "linear solver")]
+
+
+def scanned(scene, group, level):
+    """Levels of all groups where this one is at a level."""
+    kind, _ = SCENES[scene]
+    return {**accuracy.base(kind), **({"cells": list(accuracy.LEVELS[kind]["cells"])[-1]} if group == "linear solver" else {}), group: level}
 
 
 def name_of(scene, group, level):
     """Series and label of a scan's point."""
-    if level == accuracy.base(SCENES[scene][0])[group]:
+    base, levels = accuracy.base(SCENES[scene][0]), scanned(scene, group, level)
+    other = [name for name in levels if levels[name] != base[name]]
+    if not other:
         return "base of the scan", scene + ": base"
-    return "scan: " + group, "%s: %s %s" % (scene, group, level)
+    if other == ["cells"]:
+        group = "cells"
+    return "scan: " + group, "%s: %s" % (scene, ", ".join("%s %s" % (name, levels[name]) for name in other))
 
 
 CHOSEN = "what Accuracy chooses"
@@ -93,7 +104,8 @@ def points(quick):
         for group in groups_of(scene):
             for level in [] if quick else accuracy.LEVELS[kind][group]:
                 if level != base[group]:
-                    yield point("scan: " + group, scene, "%s %s" % (group, level), accuracy.settings(kind, {**base, group: level}), shown="")
+                    series, label = name_of(scene, group, level)
+                    yield point(series, scene, label.split(": ", 1)[1], accuracy.settings(kind, scanned(scene, group, level)), shown="")
         for asked in accuracy.ACCURACIES if not quick else ["10 %", "1 %"]:
             yield point(CHOSEN, scene, asked, {"Accuracy": asked} if quick else accuracy.chosen_settings(kind, asked), shown=asked)
 
