@@ -1,8 +1,7 @@
 """What `Accuracy` chooses: from the results of doc/lab/accuracy into source/scene/accuracy_table.h, and into README.md.
 
-Each kind of scene has groups of parameters, and each group levels, from loose to tight. The study runs its scenes with one group at a time
-at other levels than a tight base; what a result then differs by from the group's tightest level is the error of that level alone. Of an
-accuracy each group may use its share, and takes the loosest level that does with it on all scenes of its kind."""
+Each kind of scene has a ladder of settings, from loose to tight. The study runs all of them on its scenes. An accuracy takes the cheapest that
+does, as all tighter ones must: one that is right beside a tighter one that is not is right by luck."""
 
 import json
 import os
@@ -26,88 +25,74 @@ def at_faces(h):
 
 
 SMOOTH = [("Coupling/Filter radius", "2.5 d"), ("Coupling/Filter shape", "smooth")]
-STEPS = {t: [("Time/Time step", "auto"), ("Time/Automatic time step/Tolerance", t)] for t in ("1", "0.2", "0.05", "0.01")}
-CONTACTS = {c: [("Contacts/Residual tolerance", c), ("Contacts/Largest violation", v)] for c, v in (("1e-1", "0.5"), ("1e-2", "0.5"), ("1e-3", "0.1"), ("4e-5", "0.01"))}
-IN_FLUID = {"time step": STEPS, "contacts": {level: CONTACTS[level] for level in list(CONTACTS)[1:]},
-            "coupling": {t: [("Coupling/Time scheme: iterated/Tolerance", t)] for t in ("0.1", "0.01")},
-            "linear solver": {t: [("Fluid/Linear solver/Tolerance", t)] for t in ("1e-3", "1e-4", "1e-6")}}
-EVEN = {**IN_FLUID, "cells": {h + " d": even(h) for h in ("8", "4", "2", "1")}}
+VIOLATION = {"1e-1": "0.5", "1e-2": "0.5", "1e-3": "0.1", "4e-5": "0.01"}  # of the worst contact
 
-# group: {level: settings}, from loose to tight
-LEVELS = {
-    "bed": {**IN_FLUID, "cells": {"4 d": at_faces("4"), "2 d": at_faces("2"), "1 d": at_faces("1"), "0.5 d": at_faces("0.5") + SMOOTH}},
-    "suspension": EVEN,
-    "other": EVEN,
-    "dry": {"time step": STEPS, "contacts": CONTACTS},
+# group: settings of a level
+GROUPS = {
+    "time step": lambda level: [("Time/Time step", "auto"), ("Time/Automatic time step/Tolerance", level)],
+    "contacts": lambda level: [("Contacts/Residual tolerance", level), ("Contacts/Largest violation", VIOLATION[level])],
+    "coupling": lambda level: [("Coupling/Time scheme: iterated/Tolerance", level)],
+    "linear solver": lambda level: [("Fluid/Linear solver/Tolerance", level)],
+    "cells": lambda level: at_faces(level[6:-2]) if level.startswith("faces ") else even(level[:-2]),
+    "filter": lambda level: SMOOTH,
 }
-BASE = {"time step": "0.05", "contacts": "4e-5", "coupling": "0.01", "linear solver": "1e-6", "cells": {"bed": "1 d", "suspension": "2 d", "other": "2 d"}}
-COARSER = {"filter": "cells"}  # a group of the table: that of LEVELS with which it is chosen
-# chosen as for another kind, whose scenes tell better
-AS_FOR = {("suspension", "contacts"): "other", ("suspension", "coupling"): "other", ("suspension", "linear solver"): "bed", ("other", "linear solver"): "bed"}
+# rungs {group: level}, from loose to tight; in a suspension grains hardly meet, so that a tight tolerance of contacts costs nothing
+rung = lambda *levels: dict(zip(GROUPS, levels))
+LADDERS = {
+    "bed": [rung("1", "1e-2", "0.1", "1e-3", "faces 4 d"), rung("1", "1e-2", "0.1", "1e-3", "faces 2 d"), rung("0.2", "1e-2", "0.1", "1e-3", "faces 1 d"),
+            rung("0.05", "4e-5", "0.01", "1e-5", "faces 0.5 d", "smooth")],
+    "suspension": [rung("1", "4e-5", "0.01", "1e-2", "8 d"), rung("1", "4e-5", "0.1", "1e-3", "4 d"), rung("1", "4e-5", "0.01", "1e-3", "2 d"),
+                   rung("0.5", "4e-5", "0.1", "1e-3", "2 d"), rung("0.2", "4e-5", "0.1", "1e-3", "2 d"), rung("0.05", "4e-5", "0.01", "1e-4", "2 d"),
+                   rung("0.05", "4e-5", "0.01", "1e-4", "1 d")],
+    "other": [rung("1", "1e-2", "0.1", "1e-2", "4 d"), rung("0.2", "1e-3", "0.1", "1e-3", "4 d"), rung("0.2", "1e-3", "0.01", "1e-3", "2 d"),
+              rung("0.05", "1e-3", "0.1", "1e-3", "2 d"), rung("0.05", "4e-5", "0.01", "1e-4", "2 d")],
+    "dry": [rung("1", "1e-1"), rung("1", "1e-2"), rung("0.2", "1e-2"), rung("0.2", "1e-3"), rung("0.05", "1e-3")],
+}
 
 
-def base(kind):
-    return {group: BASE[group][kind] if group == "cells" else BASE[group] for group in LEVELS[kind]}
+def name_of(levels):
+    return ", ".join("%s %s" % item for item in levels.items())
 
 
-def settings(kind, levels):
+def settings(levels):
     """{'Section/Name': value} of {group: level}."""
-    return {name: value for group, level in levels.items() for name, value in LEVELS[kind][group][level]}
+    return {name: value for group, level in levels.items() for name, value in GROUPS[group](level)}
 
 
 # --- choosing
 
-# Of the accuracy that is asked for, what each group may use. Errors seldom add up; what is chosen is run as a whole, too
-SHARES = {"cells": 1.0, "time step": 0.5, "contacts": 0.1, "coupling": 0.1, "linear solver": 0.1}
+KEPT = 0.05  # of what is asked: so much less is to be reached
 
 
 class Choice:
-    """A level of a group, its own error on the scene where that is largest, and that of the next looser one."""
+    """A rung for a kind of scene and an accuracy; its errors and those of the next looser one, {quantity: error}."""
 
-    def __init__(self, kind, accuracy, group, level, worst, looser):
-        self.kind, self.accuracy, self.group, self.level, self.worst, self.looser = kind, accuracy, group, level, worst, looser
+    def __init__(self, kind, accuracy, levels, errors, looser):
+        self.kind, self.accuracy, self.levels, self.errors, self.looser = kind, accuracy, levels, errors, looser
 
-    @property
-    def reason(self):
-        """`worst` and `looser`: (error, quantity, level), or None."""
-        of_it = "by itself %s of the %s" % (percent(self.worst[0]), self.worst[1]) if self.worst else "the tightest that was tried"
-        of_next = "; with %s %s of the %s" % (self.looser[2], percent(self.looser[0]), self.looser[1]) if self.looser else ""
-        return of_it + of_next
+    def reason(self, group):
+        found = "measured with all that is chosen: " + in_words(self.errors)
+        return found + (" off; the next looser settings: %s" % in_words(self.looser) if self.looser else " off; these are the loosest that were tried")
 
 
-def own_errors(study, results, kind, group):
-    """{level: {quantity: what it differs by from the tightest level}}, from loose to tight, on the scenes that tell."""
-    module, found = study.module, {level: {} for level in LEVELS[kind][group]}
-    tightest = list(found)[-1]
-    for scene, (of, quantities) in module.SCENES.items():
-        if of != AS_FOR.get((kind, group), kind) or group not in module.groups_of(scene):
-            continue
-        values = {level: results.done(*module.name_of(scene, group, level)).values for level in found}
-        for level in found:
-            for name in quantities:
-                key = module.NAMES[name]
-                found[level][name] = abs(values[level][key] - values[tightest][key]) / abs(module.reference[key] or 1.0)
-    return found
+def in_words(errors):
+    return ", ".join("%s %s" % (name, percent(error)) for name, error in errors.items())
 
 
 def choose(study, results):
-    """A list of Choice: the loosest level that, like all tighter ones, does with its share."""
-    choices = []
-    for kind, groups in LEVELS.items():
+    """A list of Choice. Throws Missing if a rung has not been run."""
+    module, choices = study.module, []
+    for kind, ladder in LADDERS.items():
+        errors, seconds = [], []
+        for levels in ladder:
+            runs = [(results.done(module.LADDER, module.label_of(scene, levels)), names) for scene, (of, names) in module.SCENES.items() if of == kind]
+            errors.append({name: run.errors[name] for run, names in runs for name in names})
+            seconds.append(sum(run.cpu_s for run, _ in runs))
         for accuracy, target in ACCURACIES.items():
-            for group in groups:
-                errors = own_errors(study, results, kind, group)
-                allowed = lambda name: max(SHARES[group] * target, results.floor(name))  # equally good runs differ by the floor
-                level = list(errors)[-1]
-                for looser in list(errors)[-2::-1]:
-                    if any(error > allowed(name) for name, error in errors[looser].items()):
-                        break
-                    level = looser
-                of = lambda at: max(((error / allowed(name), error, name) for name, error in errors[at].items()))[1:]
-                at = list(errors).index(level)
-                next_looser = list(errors)[at - 1] if at else None
-                choices.append(Choice(kind, accuracy, group, level, of(level) if level != list(errors)[-1] else None,
-                                      (*of(next_looser), next_looser) if next_looser else None))
+            does = lambda at: all(error <= max((1 - KEPT) * target, results.floor(name)) for name, error in errors[at].items())
+            rungs = [at for at in range(len(ladder)) if all(does(tighter) for tighter in range(at, len(ladder)))] or [len(ladder) - 1]
+            best = min(rungs, key=lambda at: seconds[at])
+            choices.append(Choice(kind, accuracy, ladder[best], errors[best], errors[best - 1] if best else None))
     return choices
 
 
@@ -122,24 +107,15 @@ def rows():
     return [json.loads(line.replace("{", "[").replace("}", "]")) for line in lines]
 
 
-def chosen_levels(kind, accuracy):
-    """{group: level} that the program's table has."""
-    values = {}
-    for of, wanted, group, pairs, _ in rows():
-        if (of, wanted) == (kind, accuracy):
-            values[COARSER.get(group, group)] = values.get(COARSER.get(group, group), []) + pairs
-    return {group: next(level for level, settings in LEVELS[kind][group].items() if [list(pair) for pair in settings] == pairs) for group, pairs in values.items()}
+def chosen(kind, accuracy):
+    """The rung that the program's table has."""
+    values = {name: value for of, wanted, _, pairs, _ in rows() if (of, wanted) == (kind, accuracy) for name, value in pairs}
+    return next(levels for levels in LADDERS[kind] if settings(levels) == values)
 
 
 def table(choices):
-    """Rows of the table: the filter, chosen with the cells, is a group that a scene may have its own of."""
-    out = []
-    for c in choices:
-        parts = {c.group: []}
-        for pair in LEVELS[c.kind][c.group][c.level]:
-            parts.setdefault("filter" if pair[0].startswith("Coupling/Filter") else c.group, []).append(list(pair))
-        out += [[c.kind, c.accuracy, group, pairs, c.reason] for group, pairs in parts.items()]
-    return out
+    """Rows of the table."""
+    return [[c.kind, c.accuracy, group, [list(pair) for pair in GROUPS[group](level)], c.reason(group)] for c in choices for group, level in c.levels.items()]
 
 
 def write_table(choices, version):
@@ -155,10 +131,6 @@ def write_table(choices, version):
         file.write("\n".join(text))
 
 
-def chosen_settings(kind, accuracy):
-    return settings(kind, chosen_levels(kind, accuracy))
-
-
 # --- README.md
 
 def readme_table(study, results):
@@ -166,12 +138,12 @@ def readme_table(study, results):
     module = study.module
     out = ["| `Accuracy` | it chooses: error of a step, of contacts, cells (at a bed's faces; in a suspension; elsewhere) | largest error on five scenes, for what is known of them | their CPU time | over the cheapest found |", "|---|---|---|---|---|"]
     for asked in ACCURACIES:
-        chosen = [chosen_levels(kind, asked) for kind in LEVELS]
-        both = lambda group: "; ".join(dict.fromkeys(levels[group] for levels in chosen if group in levels))
-        seconds = sum(results.cpu(module.CHOSEN, "%s: %s" % (scene, asked)) for scene in module.SCENES)
+        levels = [chosen(kind, asked) for kind in LADDERS]
+        of = lambda group: "; ".join(dict.fromkeys(found[group].replace("faces ", "") for found in levels if group in found))
+        seconds = sum(results.cpu(module.LADDER, module.label_of(scene, chosen(module.SCENES[scene][0], asked))) for scene in module.SCENES)
         _, error, name = module.worst(results, asked)
         costs = [module.cost(results, scene, asked) for scene in module.SCENES]
-        out.append("| %s | %s, %s, %s | %s (%s) | %s s | %s to %s |" % (asked, both("time step"), both("contacts"), both("cells"), percent(error), name, number(seconds, 2), number(min(costs), 2), number(max(costs), 2)))
+        out.append("| %s | %s, %s, %s | %s (%s) | %s s | %s to %s |" % (asked, of("time step"), of("contacts"), of("cells"), percent(error), name, number(seconds, 2), number(min(costs), 2), number(max(costs), 2)))
     return out
 
 
@@ -185,14 +157,11 @@ def write_readme(lines):
 
 
 def renew(study, results_of):
-    """Table and README.md from the study's results; what to do next, in lines."""
+    """Table and README.md from the study's results; what was written, in lines."""
     results = results_of(study)
     choices = choose(study, results)
     before, now = [row[:4] for row in rows()], [row[:4] for row in table(choices)]
     write_table(choices, ", ".join(sorted({r.version for r in results})))
-    yield TABLE
-    if now != before:
-        yield "it has changed: run `contrib/lab accuracy`, which runs what is chosen now, and `contrib/lab choose` once more"
-        return
+    yield TABLE + (": it has changed; build anew" if now != before else "")
     write_readme(readme_table(study, results))
     yield os.path.join(ROOT, "README.md")

@@ -33,6 +33,14 @@ compare settling_speed_m_per_s "$lab/settling.prm" "${small_suspension[@]}"
 grep -q 'a suspension: cells are even' screen-output || fail "a suspension"
 grep -q 'as measured for: a suspension' output/log.txt || fail "the log does not say what was chosen"
 
+# whatever is chosen is a parameter that there is, and has a value that it may have
+for scene in flux settling jet runout; do
+  for accuracy in '10 %' '1 %' '0.1 %'; do
+    must_run 1 --print-parameters "$lab/$scene.prm" --set "Accuracy=$accuracy"
+    grep -q 'set Time step *= auto' screen-output || fail "Accuracy = $accuracy chooses nothing for $scene"
+  done
+done
+
 # kinds of scenes, reasons, and the scene's own
 must_run 1 --check "$lab/flux.prm" "${small_bed[@]}" --set 'Accuracy=1 %' --set 'Fluid/Linear solver/Tolerance=1e-7'
 for text in 'a bed whose fluid comes and goes through its two faces' 'time step: Time/Time step = auto, .*; by itself .*%' 'cells: Mesh refinement/Criteria = bed faces' \

@@ -1,11 +1,10 @@
 """What `Accuracy` chooses.
 
 Five scenes that say nothing of how they are computed: the flux through a fixed bed; onset and heave of a bed under a rising head; the fall of a
-suspension; the runout of a dry column; a jet through a bed, its head and the grains that it moves. They are computed with what
-`Accuracy = 10 %`, `1 %` and `0.1 %` choose, and with a scan: one group of parameters at a time at other levels than a base. Errors are
-measured against the converged references of the other studies: the flux that theirs tend to with finer cells, the closed form of the onset, and their finest runs. What these do not know themselves is hatched.
-The overlap is the column's largest, in diameters. `contrib/lab choose` makes of the scan what the program chooses: of each group the loosest
-level whose own error is below the group's share of what is asked (all of it for cells, half for steps, a tenth for each tolerance).
+suspension; the runout of a dry column and its largest overlap, in diameters; a jet through a bed, its head and the grains that it moves. Each kind of scene has a
+ladder of settings, from loose to tight; `contrib/lab choose` makes of it what the program chooses: the cheapest rung that does, as all tighter ones must. Beside the ladders are
+the points of the six studies that have these scenes, too. Errors are measured against the converged references of those: the flux
+that theirs tend to with finer cells, the closed form of the onset, and their finest runs. What these do not know themselves is hatched.
 """
 import csv
 import os
@@ -13,7 +12,7 @@ import os
 import numpy as np
 
 from laboratory import accuracy
-from laboratory.study import Chart, Missing, Point
+from laboratory.study import Chart, Missing, Point, Result
 
 order = 0
 chart = Chart()
@@ -68,46 +67,41 @@ def point(series, scene, label, settings, shown=""):
     return Point(series, "%s: %s" % (scene, label), {**pictures.get(scene, {}), **settings}, scene=scene + ".prm", shown=shown)
 
 
-def groups_of(scene):
-    """What is scanned there. The linear solver's error grows with fine cells, and is seen best where the flow is steady."""
-    kind, _ = SCENES[scene]
-    still = scene in ("flux", "settling")  # fixed discs, and such that hardly meet
-    return [group for group in accuracy.LEVELS[kind] if not (still and group in ("contacts", "coupling")) and (scene == "flux" or group != "linear solver")]
+LADDER = "ladder"
 
 
-def scanned(scene, group, level):
-    """Levels of all groups where this one is at a level."""
-    kind, _ = SCENES[scene]
-    return {**accuracy.base(kind), **({"cells": list(accuracy.LEVELS[kind]["cells"])[-1]} if group == "linear solver" else {}), group: level}
+def label_of(scene, levels):
+    return "%s: %s" % (scene, accuracy.name_of(levels))
 
 
-def name_of(scene, group, level):
-    """Series and label of a scan's point."""
-    base, levels = accuracy.base(SCENES[scene][0]), scanned(scene, group, level)
-    other = [name for name in levels if levels[name] != base[name]]
-    if not other:
-        return "base of the scan", scene + ": base"
-    if other == ["cells"]:
-        group = "cells"
-    return "scan: " + group, "%s: %s" % (scene, ", ".join("%s %s" % (name, levels[name]) for name in other))
-
-
-CHOSEN = "what Accuracy chooses"
+def chosen_for(kind, levels):
+    """The accuracies for which the program chooses these."""
+    return ", ".join(asked for asked in accuracy.ACCURACIES if accuracy.chosen(kind, asked) == levels)
 
 
 def points(quick):
     for scene, (kind, _) in SCENES.items():
         if quick and scene not in ("flux", "settling", "runout"):
             continue
-        base = accuracy.base(kind)
-        yield point("base of the scan", scene, "base", accuracy.settings(kind, base))
-        for group in groups_of(scene):
-            for level in [] if quick else accuracy.LEVELS[kind][group]:
-                if level != base[group]:
-                    series, label = name_of(scene, group, level)
-                    yield point(series, scene, label.split(": ", 1)[1], accuracy.settings(kind, scanned(scene, group, level)), shown="")
-        for asked in accuracy.ACCURACIES if not quick else ["10 %", "1 %"]:
-            yield point(CHOSEN, scene, asked, {"Accuracy": asked} if quick else accuracy.chosen_settings(kind, asked), shown=asked)
+        for levels in accuracy.LADDERS[kind]:
+            yield point(LADDER, scene, accuracy.name_of(levels), accuracy.settings(levels), shown=chosen_for(kind, levels))
+
+
+# scene: the study that has it too, {value there: value here}
+ALSO = {"flux": ("fixed-bed-flux", {"flux [m2/s]": "flux [m2/s]"}), "heave": ("fluidised-bed", {"onset over exact": "onset over exact", "heave [H]": "heave [H]"}),
+        "settling": ("settling-suspension", {"fall [m]": "fall [m]", "fluctuations [m/s]": "fluctuations [m/s]"}),
+        "runout": ("dry-column", {"spreading [m]": "runout [m]", "largest overlap / d": "overlap / d"}), "jet": ("jet-through-bed", {"head [m]": "head [m]", "moved": "grains moved"})}
+
+
+def taken(quick):
+    """Points of the other studies."""
+    for scene, (name, values) in ALSO.items() if not quick else []:
+        with open(os.path.join(HERE, "..", name, "results.csv"), newline="") as file:
+            for row in csv.DictReader(file):
+                if row["status"] == "done":
+                    found = {here: float(row["value: " + there]) for there, here in values.items()}
+                    of_it = Point("other studies", "%s: %s, %s" % (scene, row["series"], row["label"]), scene=scene + ".prm", shown="")
+                    yield Result(of_it, "done", 0, "", float(row["cpu_s"]), found, row["version"], row["key"])
 
 
 def measure(run, point):
@@ -133,24 +127,24 @@ def error(values, reference):
     return {name: abs(values[key] / reference[key] - 1) if reference[key] else values[key] for name, key in NAMES.items() if key in values}
 
 
+def run_of(r, scene, asked):
+    """What an accuracy chooses for a scene."""
+    return r.done(LADDER, label_of(scene, accuracy.chosen(SCENES[scene][0], asked)))
+
+
 def worst(r, asked):
     """Of what an accuracy chooses: the largest error over what was asked or is not known; that error; of what."""
-    errors = [(r.error(CHOSEN, "%s: %s" % (scene, asked), name), name) for scene, (_, names) in SCENES.items() for name in names]
+    errors = [(run_of(r, scene, asked).errors[name], name) for scene, (_, names) in SCENES.items() for name in names]
     return max((error / max(accuracy.ACCURACIES[asked], r.floor(name)), error, name) for error, name in errors)
 
 
-def cheapest(r, scene, asked):
-    """The cheapest run of a scene that does."""
-    does = lambda p: all(p.errors[name] <= max(accuracy.ACCURACIES[asked], r.floor(name)) for name in SCENES[scene][1])
-    return min((p for p in r if p.done and p.point.scene == scene + ".prm" and does(p)), key=lambda p: p.cpu_s, default=None)
-
-
 def cost(r, scene, asked):
-    """CPU time of what an accuracy chooses over that of the cheapest."""
-    found = cheapest(r, scene, asked)
-    if not found:
+    """CPU time of what an accuracy chooses over that of the cheapest that does, here or in another study."""
+    does = lambda p: all(p.errors[name] <= max(accuracy.ACCURACIES[asked], r.floor(name)) for name in SCENES[scene][1])
+    found = min((p.cpu_s for p in r if p.done and p.point.scene == scene + ".prm" and does(p)), default=None)
+    if found is None:
         raise Missing("nothing does for %s of %s" % (asked, scene))
-    return r.cpu(CHOSEN, "%s: %s" % (scene, asked)) / found.cpu_s
+    return run_of(r, scene, asked).cpu_s / found
 
 
 def claims(r):
@@ -159,11 +153,11 @@ def claims(r):
             for name in names:
                 bound = max(accuracy.ACCURACIES[asked], r.floor(name))
                 unknown = "" if bound == accuracy.ACCURACIES[asked] else ", as far as the reference is known"
-                yield ("`%s`: the %s is right within that%s" % (asked, name, unknown), lambda scene=scene, name=name, asked=asked: r.error(CHOSEN, "%s: %s" % (scene, asked), name), "<", bound)
+                yield "`%s`: the %s is right within that%s" % (asked, name, unknown), lambda scene=scene, name=name, asked=asked: run_of(r, scene, asked).errors[name], "<=", bound
     for asked in accuracy.ACCURACIES:
         for scene in SCENES:
-            if r.of("scan: cells"):  # a quick study has none
-                yield "`%s`: %s costs at most twice the cheapest that was found" % (asked, scene), lambda scene=scene, asked=asked: cost(r, scene, asked), "<", 2
+            if r.of("other studies"):  # a quick study has none
+                yield "`%s`: %s costs at most twice the cheapest that was found" % (asked, scene), lambda scene=scene, asked=asked: cost(r, scene, asked), "<=", 2
 
 
 def says(r):
@@ -172,8 +166,7 @@ def says(r):
         costs = {scene: cost(r, scene, asked) for scene in SCENES}
         dearest = max(costs, key=costs.get)
         _, error_of_it, name = worst(r, asked)
-        words.append("`%s` is at most %.2g %% off (%s) and costs at most %.2g times the cheapest setting found (%s)"
-                     % (asked, 100 * error_of_it, name, costs[dearest], dearest))
-    fluctuations = lambda asked: abs(r.value(CHOSEN, "settling: " + asked, "fluctuations [m/s]") / reference["fluctuations [m/s]"] - 1)
+        words.append("`%s` is at most %.2g %% off (%s) and costs at most %.2g times the cheapest setting found (%s)" % (asked, 100 * error_of_it, name, costs[dearest], dearest))
+    fluctuations = lambda asked: abs(run_of(r, "settling", asked).values["fluctuations [m/s]"] / reference["fluctuations [m/s]"] - 1)
     return ("; ".join(words) + ". What is promised are means: fluctuations about the suspension's fall, which live on small cells, are then still %.0f, %.0f and %.0f %% off."
             % tuple(100 * fluctuations(asked) for asked in accuracy.ACCURACIES))
