@@ -70,7 +70,8 @@ class Choice:
     def __init__(self, kind, accuracy, levels, errors, looser):
         self.kind, self.accuracy, self.levels, self.errors, self.looser = kind, accuracy, levels, errors, looser
 
-    def reason(self, group):
+    @property
+    def reason(self):
         found = "measured with all that is chosen: " + in_words(self.errors)
         return found + (" off; the next looser settings: %s" % in_words(self.looser) if self.looser else " off; these are the loosest that were tried")
 
@@ -115,7 +116,7 @@ def chosen(kind, accuracy):
 
 def table(choices):
     """Rows of the table."""
-    return [[c.kind, c.accuracy, group, [list(pair) for pair in GROUPS[group](level)], c.reason(group)] for c in choices for group, level in c.levels.items()]
+    return [[c.kind, c.accuracy, group, [list(pair) for pair in GROUPS[group](level)], c.reason] for c in choices for group, level in c.levels.items()]
 
 
 def write_table(choices, version):

@@ -144,6 +144,8 @@ namespace alluvium::scene
           continue;
         if (choice.group == "coupling" && value_of("Coupling/Time scheme") != "iterated")
           continue;
+        if (std::find(lines.begin(), lines.end(), choice.reason) == lines.end()) // the same for what was measured together
+          lines.push_back(choice.reason);
         std::string left_alone;
         if (choice.group == "cells" && !value_of("Domain/Mesh file").empty())
           left_alone = "those of Domain/Mesh file, " + value_of("Domain/Mesh file");
@@ -161,7 +163,7 @@ namespace alluvium::scene
                 overrides.push_back({declared.split(name), value, "Accuracy = " + accuracy, false});
               text += (text.empty() ? "" : ", ") + (own ? in_words(*own) : name + " = " + value);
             }
-        lines.push_back(choice.group + ": " + (left_alone.empty() ? text + "; " + choice.reason : left_alone));
+        lines.push_back(choice.group + ": " + (left_alone.empty() ? text : left_alone));
       }
     apply_statements(prm, overrides);
     return lines;

@@ -1,5 +1,5 @@
-"""What `Accuracy` chooses: the table in the program's source and in README.md are what doc/lab/accuracy/results.csv gives, and of levels with
-known errors the right one is chosen."""
+"""What `Accuracy` chooses: the table in the program's source and in README.md are what doc/lab/accuracy/results.csv gives, and of settings with
+known errors the right ones are chosen."""
 
 import os
 import sys
@@ -20,6 +20,7 @@ points = studied.points(False)
 missing = [p.name for p in points if (p.series, p.label) not in rows]
 assert not missing, "run contrib/lab accuracy: %s" % missing
 found = [running.from_row(rows[p.series, p.label], p) for p in points]
+found += studied.module.taken(False)
 studied.compare(found)
 results = Results(found, studied.get("floor"))
 choices = accuracy.choose(studied, results)
@@ -28,29 +29,35 @@ with open(os.path.join(ROOT, "README.md")) as readme:
     assert "\n".join(accuracy.readme_table(studied, results)) in readme.read(), "run contrib/lab choose: README.md"
 
 
-# --- levels with known errors
-def chosen(errors, floor=None):
-    """Of contacts in dry scenes, whose levels change the runout by `errors`: what is chosen for 10 %, 1 %, 0.1 %."""
-    known = []
+# --- rungs with known errors
+def chosen(errors, cpu=None, floor=None):
+    """Of the ladder of dry scenes, whose rungs change the runout by `errors`: the rungs for 10 %, 1 %, 0.1 %."""
+    module, known = studied.module, []
+    exact = {module.NAMES[name]: module.reference[module.NAMES[name]] for _, names in module.SCENES.values() for name in names}
     for p in points:
-        values = {studied.module.NAMES[name]: studied.module.reference[studied.module.NAMES[name]] or 0.0 for _, names in studied.module.SCENES.values() for name in names}
-        for level, error in errors.items():
-            if (p.series, p.label) == studied.module.name_of("runout", "contacts", level):
-                values["runout [m]"] *= 1 + error
-        known.append(Result(p, "done", 0, "", 1.0, values, "", ""))
+        rungs = [module.label_of("runout", levels) for levels in accuracy.LADDERS["dry"]]
+        at = rungs.index(p.label) if p.label in rungs else None
+        values = {**exact, **({"runout [m]": exact["runout [m]"] * (1 + errors[at])} if at is not None else {})}
+        known.append(Result(p, "done", 0, "", 1.0 if at is None or not cpu else cpu[at], values, "", ""))
     studied.compare(known)
-    return [c.level for c in accuracy.choose(studied, Results(known, floor or {})) if (c.kind, c.group) == ("dry", "contacts")]
+    return [accuracy.LADDERS["dry"].index(c.levels) for c in accuracy.choose(studied, Results(known, floor or {})) if c.kind == "dry"]
 
 
-levels = list(accuracy.LEVELS["dry"]["contacts"])
-share = accuracy.SHARES["contacts"]
-assert chosen(dict(zip(levels, (0.2 * share, 0.05 * share, 0.005 * share, 0)))) == [levels[1], levels[2], levels[3]]
-# a loose level that is right by luck, beside a tighter one that is not, is not taken
-assert chosen(dict(zip(levels, (0, 0.2 * share, 0.005 * share, 0)))) == [levels[2], levels[2], levels[3]]
-# what no run knows costs nothing
-assert chosen(dict(zip(levels, (0.2 * share, 0.05 * share, 0.005 * share, 0))), {"runout": 0.06 * share}) == [levels[1], levels[1], levels[1]]
+cheap_first = (1, 2, 3, 4, 5)
+assert len(accuracy.LADDERS["dry"]) == len(cheap_first)
+assert chosen((0.5, 0.05, 0.005, 0.0005, 0), cheap_first) == [1, 2, 3]
+# a little of what is asked is kept
+assert chosen((0.099, 0.05, 0.0099, 0.005, 0), cheap_first) == [1, 3, 4]
+# a loose rung that is right by luck, beside a tighter one that is not, is not taken
+assert chosen((0, 0.5, 0.005, 0.0005, 0), cheap_first) == [2, 2, 3]
+# a tighter one that is cheaper is
+assert chosen((0.5, 0.05, 0.005, 0.0005, 0), (1, 4, 2, 3, 5)) == [2, 2, 3]
+# what is not known of the reference is no error
+assert chosen((0.5, 0.05, 0.02, 0.02, 0.02), cheap_first, {"runout": 0.03}) == [1, 2, 2]
+# where none does, the tightest is taken
+assert chosen((0.5, 0.4, 0.3, 0.2, 0.15), cheap_first) == [4, 4, 4]
 try:
     accuracy.choose(studied, Results([], {}))
-    assert False, "a scan that was not run gives no table"
+    assert False, "ladders that were not run give no table"
 except Missing:
     pass

@@ -43,10 +43,12 @@ done
 
 # kinds of scenes, reasons, and the scene's own
 must_run 1 --check "$lab/flux.prm" "${small_bed[@]}" --set 'Accuracy=1 %' --set 'Fluid/Linear solver/Tolerance=1e-7'
-for text in 'a bed whose fluid comes and goes through its two faces' 'time step: Time/Time step = auto, .*; by itself .*%' 'cells: Mesh refinement/Criteria = bed faces' \
+for text in 'a bed whose fluid comes and goes through its two faces' 'measured with all that is chosen: flux .*%.* off' \
+  'time step: Time/Time step = auto, Time/Automatic time step/Tolerance = ' 'cells: Mesh refinement/Criteria = bed faces' \
   "linear solver: as the scene has them: Fluid/Linear solver/Tolerance = 1e-7 (--set" '  time step   chosen step by step'; do
   grep -q -- "$text" screen-output || fail "missing: $text"
 done
+[ "$(grep -c 'measured with all' screen-output)" -eq 1 ] || fail "the reason is said more than once"
 must_run 1 --check "$lab/jet.prm" --set 'Accuracy=10 %'
 grep -q "fluid enters or leaves by 'slot': cells are even" screen-output || fail "a jet"
 must_run 1 --check "$lab/runout.prm" --set 'Accuracy=10 %'

@@ -16,7 +16,7 @@ namespace alluvium::scene
     std::string        accuracy; // '10 %', '1 %', '0.1 %'
     std::string        group;    // 'cells', 'filter', 'time step', ...
     ParameterOverrides values;   // the first one leads: a scene with another value of it keeps the others' values, too
-    std::string        reason;   // what was measured
+    std::string        reason;   // what was measured with all choices of this kind and accuracy
   };
 
   /** All choices, as `contrib/lab accuracy` has written them from what was measured. */
