@@ -97,15 +97,14 @@ class Runner:
 
     # --- running
 
-    def run(self, quick=False, again=False, only=""):
-        """Results of all points, run or known. Those without `only` in their name are taken as they are known, of whatever version."""
+    def run(self, quick=False, again=False):
+        """Results of all points, run or known."""
         points = self.study.points(quick)
-        kept = {(row["series"], row["label"]): row for row in read_rows(self.file)} if only else {}
         known = {} if again else {row["key"]: row for row in read_rows(self.file) if row["reason"] != INTERRUPTED}
         took = {(row["series"], row["label"]): float(row["cpu_s"]) for row in read_rows(self.file)}  # also of other versions
         results, todo = {}, []
         for i, point in enumerate(points):
-            row = known.get(self.key(point)) if only in point.name else kept.get((point.series, point.label))
+            row = known.get(self.key(point))
             if row:
                 results[i] = from_row(row, point)
             else:
