@@ -1,7 +1,7 @@
 """What `Accuracy` chooses: from the results of doc/lab/accuracy into source/scene/accuracy_table.h, and into README.md.
 
 Each kind of scene has a ladder of settings, from loose to tight. The study runs all of them on its scenes. An accuracy takes the cheapest that
-does, as all tighter ones must: one that is right beside a tighter one that is not is right by luck."""
+does, as all tighter ones must, and as the same cells must in short steps: what is right where these are not is right by luck."""
 
 import json
 import os
@@ -43,7 +43,7 @@ LADDERS = {
             rung("0.05", "4e-5", "0.01", "1e-5", "faces 0.5 d", "smooth")],
     "suspension": [rung("1", "4e-5", "0.01", "1e-2", "8 d"), rung("1", "4e-5", "0.1", "1e-3", "4 d"), rung("1", "4e-5", "0.01", "1e-3", "2 d"),
                    rung("0.5", "4e-5", "0.1", "1e-3", "2 d"), rung("0.2", "4e-5", "0.1", "1e-3", "2 d"), rung("0.05", "4e-5", "0.01", "1e-4", "2 d"),
-                   rung("0.05", "4e-5", "0.01", "1e-4", "1 d")],
+                   rung("0.02", "4e-5", "0.01", "1e-4", "1 d")],
     "other": [rung("1", "1e-2", "0.1", "1e-2", "4 d"), rung("0.2", "1e-3", "0.1", "1e-3", "4 d"), rung("0.2", "1e-3", "0.01", "1e-3", "2 d"),
               rung("0.05", "1e-3", "0.1", "1e-3", "2 d"), rung("0.05", "4e-5", "0.01", "1e-4", "2 d")],
     "dry": [rung("1", "1e-1"), rung("1", "1e-2"), rung("0.2", "1e-2"), rung("0.2", "1e-3"), rung("0.05", "1e-3")],
@@ -60,9 +60,6 @@ def settings(levels):
 
 
 # --- choosing
-
-KEPT = 0.05  # of what is asked: so much less is to be reached
-
 
 class Choice:
     """A rung for a kind of scene and an accuracy; its errors and those of the next looser one, {quantity: error}."""
@@ -90,7 +87,8 @@ def choose(study, results):
             errors.append({name: run.errors[name] for run, names in runs for name in names})
             seconds.append(sum(run.cpu_s for run, _ in runs))
         for accuracy, target in ACCURACIES.items():
-            does = lambda at: all(error <= max((1 - KEPT) * target, results.floor(name)) for name, error in errors[at].items())
+            bound = lambda name: max(target, results.floor(name))
+            does = lambda at: all(error <= bound(name) for name, error in errors[at].items()) and module.cells_do(results, kind, ladder[at], bound)
             rungs = [at for at in range(len(ladder)) if all(does(tighter) for tighter in range(at, len(ladder)))] or [len(ladder) - 1]
             best = min(rungs, key=lambda at: seconds[at])
             choices.append(Choice(kind, accuracy, ladder[best], errors[best], errors[best - 1] if best else None))
@@ -109,9 +107,9 @@ def rows():
 
 
 def chosen(kind, accuracy):
-    """The rung that the program's table has."""
+    """The rung that the program's table has, or None if it is no rung any more."""
     values = {name: value for of, wanted, _, pairs, _ in rows() if (of, wanted) == (kind, accuracy) for name, value in pairs}
-    return next(levels for levels in LADDERS[kind] if settings(levels) == values)
+    return next((levels for levels in LADDERS[kind] if settings(levels) == values), None)
 
 
 def table(choices):

