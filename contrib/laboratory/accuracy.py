@@ -40,7 +40,7 @@ GROUPS = {
 rung = lambda *levels: dict(zip(GROUPS, levels))
 LADDERS = {
     "bed": [rung("1", "1e-2", "0.1", "1e-3", "faces 4 d"), rung("1", "1e-2", "0.1", "1e-3", "faces 2 d"), rung("0.2", "1e-2", "0.1", "1e-3", "faces 1 d"),
-            rung("0.05", "4e-5", "0.01", "1e-5", "faces 0.5 d", "smooth")],
+            rung("0.2", "1e-3", "0.1", "1e-5", "faces 0.5 d", "smooth"), rung("0.05", "4e-5", "0.01", "1e-5", "faces 0.5 d", "smooth")],
     "suspension": [rung("1", "4e-5", "0.01", "1e-2", "8 d"), rung("1", "4e-5", "0.1", "1e-3", "4 d"), rung("1", "4e-5", "0.01", "1e-3", "2 d"),
                    rung("0.5", "4e-5", "0.1", "1e-3", "2 d"), rung("0.2", "4e-5", "0.1", "1e-3", "2 d"), rung("0.05", "4e-5", "0.01", "1e-4", "2 d"),
                    rung("0.02", "4e-5", "0.01", "1e-4", "1 d")],
