@@ -148,8 +148,12 @@ namespace alluvium
       scene::declare_accuracy(prm);
       scene::declare_shared_libraries(prm);
       simulation.add_parameters(prm);
-      simulation.describe_accuracy(
-        scene::read_parameters(prm, command_line.scene, command_line.assignments, Simulation::paper_method()));
+      const auto remarks =
+        scene::read_parameters(prm, command_line.scene, command_line.assignments, Simulation::paper_method());
+      simulation.describe_accuracy(remarks.choices);
+      if (is_first_rank)
+        for (const std::string &warning : remarks.warnings)
+          std::cerr << "alluvium: warning: " << warning << std::endl;
       scene::set_shared_libraries(prm, libraries);
 
       if (command_line.print_parameters)

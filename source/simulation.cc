@@ -6,6 +6,7 @@
 #include <alluvium/run/mesh_changes.h>
 #include <alluvium/run/model.h>
 #include <alluvium/run/output.h>
+#include <alluvium/run/poles.h>
 #include <alluvium/run/run_guard.h>
 #include <alluvium/run/scene_report.h>
 #include <alluvium/run/set_up.h>
@@ -52,6 +53,7 @@ namespace alluvium
   private:
     void prepare(const ParameterHandler &prm, const std::string &directory, bool writes);
     void report_restart() const;
+    void check_time_step();
     bool has_ended() const { return model.time >= end_time - 1e-6 * model.time_step; }
     int  advance();
     void step();
@@ -104,7 +106,9 @@ namespace alluvium
     for (const auto &p : declared.parameters())
       model.parameters.emplace_back(scene::to_string(p.path), p.value);
     const auto timer = model.timers.scope("set-up");
-    time_step.parse_parameters();
+    model.parse_parameters();
+    time_step.parse_parameters(end_time);
+    output.parse_parameters();
     const std::string remark = output.check_folder(restart, !writes);
     if (!remark.empty())
       model.warnings.print("a run would be refused: " + remark);
@@ -115,25 +119,33 @@ namespace alluvium
         checkpoint = std::make_unique<run::Checkpoint>(model.communicator, output.folder().file("checkpoint"));
         changes    = checkpoint->compare_parameters(model);
       }
-    run::set_up(model, directory, checkpoint.get());
+    run::set_up(model, directory, checkpoint.get(), end_time);
     // a run that was killed between its last checkpoint and its summary has the summary left to do
     check_user(!restart || !has_ended() ||
                  (model.time <= end_time + 1e-6 * model.time_step && !output.holds_finished_run()),
                "Output/Restart: the checkpoint is of t = " + in_digits(model.time) +
                  " s, and Time/End time = " + in_digits(end_time) + " s has passed: nothing is left to do.");
     run::check_boundaries(model, end_time);
-    run::check_walls(model);
+    run::check_walls(model, end_time);
+    run::check_poles(model, end_time);
     std::vector<double> intervals = output.intervals();
     intervals.push_back(guard.interval_of_checkpoints());
     time_step.prepare(end_time, intervals);
-    if (!time_step.automatic() || run::stable_step(model, end_time) == 0.) // else it is obeyed
-      run::check_time_step(model, end_time);
+    check_time_step();
     output.choose_observers();
     if (writes && !restart)
       output.make_folder(false);
     else if (!restart)
       output.check_folder(false, true); // now that it is known what the deposit reads
     output.open();
+  }
+
+
+  /** Warn if it is beyond the time scheme's limit. A chosen one obeys that, unless it is zero. */
+  void Simulation::Implementation::check_time_step()
+  {
+    if (!time_step.automatic() || run::stable_step(model) == 0.)
+      run::check_time_step(model);
   }
 
 
@@ -210,6 +222,9 @@ namespace alluvium
           }
         count_step();
         guard.judge();
+        constexpr unsigned int check_interval = 20; // grains settle, and the limit falls
+        if (model.n_steps % check_interval == 0)
+          check_time_step();
         output.update();
         signal = stop_requested(model.communicator);
         guard.keep();

@@ -8,7 +8,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.colors import LogNorm, Normalize
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter, NullLocator
 from matplotlib.transforms import Bbox
 
 from alluvium.draw import use_style
@@ -196,11 +196,14 @@ def draw_map(study, results, folder):
     figure, axes, place = panels(len(series), columns, (5.2, 4.8), 0.9)
     finite = [v for v in values if math.isfinite(v) and (v > 0 or "v" not in chart.log)] or [1.0]
     norm = (LogNorm if "v" in chart.log else Normalize)(min(finite), max(max(finite), min(finite) * (1 + 1e-9)))
-    handles, coloured, good = {}, None, "at most %s" % number(chart.bound)
+    handles, coloured = {}, None
+    good, above = chart.good or "at most %s" % number(chart.bound), chart.above or "above %s" % number(chart.bound)
+    if chart.words:
+        norm = Normalize(min(chart.words), max(chart.words))
     for i, (axis, name) in enumerate(zip(axes, series)):
         points = results.of(name)
         for kind, marker, wanted in ((good, "o", lambda r: r.done and r.values.get(chart.value, math.inf) <= chart.bound),
-                                     ("above %s" % number(chart.bound), "s", lambda r: r.done and r.values.get(chart.value, math.inf) > chart.bound),
+                                     (above, "s", lambda r: r.done and r.values.get(chart.value, math.inf) > chart.bound),
                                      ("failed", "X", lambda r: not r.done)):
             chosen = [r for r in points if wanted(r)]
             if not chosen:
@@ -211,14 +214,15 @@ def draw_map(study, results, folder):
             else:
                 coloured = axis.scatter(*at, marker=marker, s=120, c=[r.values[chart.value] for r in chosen], cmap="cividis", norm=norm, zorder=3,
                                     edgecolors="#0072B2" if kind == good else "#D55E00", linewidths=2)
-            edge = {good: "#0072B2", "failed": "white"}.get(kind, "#D55E00")
+            edge = {good: "#0072B2", "failed": FAILED}.get(kind, "#D55E00")
             handles[kind] = matplotlib.lines.Line2D([], [], ls="", marker=marker, ms=10, mfc=FAILED if kind == "failed" else "white", mec=edge, mew=2)
-        if "x" in chart.log:
-            axis.set_xscale("log")
-            plain(axis.xaxis)
-        if "y" in chart.log:
-            axis.set_yscale("log")
-            plain(axis.yaxis)
+        for way, side, scale, swept in (("x", axis.xaxis, axis.set_xscale, [r.point.x for r in points]), ("y", axis.yaxis, axis.set_yscale, [r.point.y for r in points])):
+            if way in chart.log:
+                scale("log")
+                if len(set(swept)) <= 8:
+                    side.set_major_locator(FixedLocator(sorted(set(swept))))
+                    side.set_minor_locator(NullLocator())
+                plain(side)
         axis.margins(0.1)
         limits = axis.get_xlim(), axis.get_ylim()
         for k, (label, xs, ys) in enumerate(chart.lines(name) if chart.lines else []):
@@ -240,5 +244,7 @@ def draw_map(study, results, folder):
         if "v" in chart.log:
             bar.ax.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
             plain(bar.ax.yaxis)
+        if chart.words:
+            bar.set_ticks(list(chart.words), labels=list(chart.words.values()))
     place.legend(handles.values(), handles.keys(), loc="center", ncol=max(1, min(len(handles), place.columns + 1)), frameon=False)
     return save(figure, folder, study.name)

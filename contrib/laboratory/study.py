@@ -74,6 +74,9 @@ class Map:
     log: str = ""  # 'x', 'y', 'xy'; 'v' for the colours
     lines: Optional[Callable] = None  # lines(series) yields (label, xs, ys): theory
     stands: tuple = ()  # (x, y, label), then the series that it is for, if not all: where the default stands
+    good: str = ""  # what points up to the bound, and above it, are called
+    above: str = ""
+    words: dict = dataclasses.field(default_factory=dict)  # {value: word}, where the value counts outcomes
 
 
 class Missing(Exception):
@@ -93,6 +96,13 @@ class Results:
 
     def of(self, series):
         return [r for r in self.all if r.point.series == series]
+
+    def some(self, series, name=None):
+        """Those of a series, with a value of this name if one is given; Missing if there are none."""
+        found = [r for r in self.of(series) if name is None or name in r.values]
+        if not found:
+            raise Missing("%s was not run" % series)
+        return found
 
     def get(self, series, label):
         found = self.by_name.get((series, label))

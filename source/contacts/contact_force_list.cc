@@ -4,16 +4,16 @@
 
 namespace alluvium::contacts
 {
-  std::vector<ContactForce> list_contact_forces(const ContactWork         &work,
+  std::vector<ContactForce> list_contact_forces(const LocalContactProblem &local,
                                                 const grains::GrainArrays &grains,
                                                 const SoftSpheres *const   soft_spheres,
                                                 const Cohesion *const      cohesion)
   {
     std::vector<ContactForce> result;
-    if (!work.fits(grains))
+    if (!local.fits(grains))
       return result;
-    const ContactGeometry &geometry = work.geometry;
-    const double           h        = work.neighbours.substep();
+    const ContactGeometry &geometry = local.geometry;
+    const double           h        = local.neighbours.substep();
     const auto             add      = [&](const ContactPair &p, const bool wall) {
       ContactPoint point;
       if (p.rn == 0. && !p.bonded)
@@ -39,7 +39,7 @@ namespace alluvium::contacts
     const auto number = [&](const grains::GrainId id) {
       return static_cast<std::uint32_t>(std::lower_bound(grains.id.begin(), grains.id.end(), id) - grains.id.begin());
     };
-    for (const ContactArchive::Entry &e : work.archive().entries)
+    for (const ContactArchive::Entry &e : local.archive().entries)
       {
         ContactPair p{number(e.a), e.wall ? ~e.b : number(e.b)};
         p.bonded = e.bonded;

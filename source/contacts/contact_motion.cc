@@ -12,13 +12,13 @@ namespace alluvium::contacts
                                    const ContactBonds     &bonds,
                                    const double            h,
                                    const bool              rotation,
-                                   ContactWork            &work)
+                                   LocalContactProblem    &local)
   {
     on_grain.assign(bodies.n_discs() + ContactBodies::n_dummies, {});
-    const ContactCandidates   &pairs      = work.neighbours.pairs;
-    std::vector<std::uint8_t> &touches    = work.touched();
-    grains::GrainArrays       &grains     = work.grains();
-    const auto                &walls      = work.geometry.walls.segments();
+    const ContactCandidates   &pairs      = local.neighbours.pairs;
+    std::vector<std::uint8_t> &touches    = local.touched();
+    grains::GrainArrays       &grains     = local.grains();
+    const auto                &walls      = local.geometry.walls.segments();
     unsigned int               n_contacts = 0;
     from_contacts.clear();
     for (std::size_t k = 0; k < problem.contacts.size(); ++k)
@@ -57,8 +57,8 @@ namespace alluvium::contacts
         else
           touches[c.j] = 1;
       }
-    add_wall_impulses(work.communicator());
-    for (std::size_t k = 0; k < work.n_owned(); ++k)
+    add_wall_impulses(local.communicator());
+    for (std::size_t k = 0; k < local.n_owned(); ++k)
       {
         const Impulse &p      = on_grain[k];
         grains.velocity[0][k] = bodies.free[k].x + bodies.free[k].inverse_mass * p.x;
@@ -73,8 +73,8 @@ namespace alluvium::contacts
         grains.contact_force[0][k] += p.x;
         grains.contact_force[1][k] += p.y;
       }
-    wrap_into_box(grains, work.geometry.periodicity);
-    work.update_ghosts();
+    wrap_into_box(grains, local.geometry.periodicity);
+    local.update_ghosts();
     for (std::size_t k = 0; k < bonds.on_grain.size(); ++k)
       {
         grains.contact_force[0][k] += bonds.on_grain[k][0];

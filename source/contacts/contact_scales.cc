@@ -70,10 +70,22 @@ namespace alluvium::contacts
       }
     const double n_substeps = std::ceil(dt * std::sqrt(speed) / largest_move * (1. - 1e-10));
     if (n_substeps > 1e6)
-      throw Divergence("Grain " + std::to_string(grains.id[fastest]) + " at (" +
-                       in_digits(grains.position[0][fastest]) + ", " + in_digits(grains.position[1][fastest]) +
-                       ") m moves at " + in_digits(std::sqrt(speed)) + " m/s: a step of " + in_digits(dt) +
-                       " s would need more than a million contact sub-steps.");
+      {
+        // a part of the smallest diameter is as far as any grain may go
+        const std::size_t smallest =
+          std::min_element(grains.radius.begin(), grains.radius.end()) - grains.radius.begin();
+        constexpr double much      = 100.;
+        const auto       described = [&](const std::size_t k) {
+          return "Grain " + std::to_string(grains.id[k]) + " at (" + in_digits(grains.position[0][k]) + ", " +
+                 in_digits(grains.position[1][k]) + ") m";
+        };
+        std::string why = described(fastest) + " moves at " + in_digits(std::sqrt(speed)) + " m/s: a step of " +
+                          in_digits(dt) + " s would need more than a million contact sub-steps.";
+        if (grains.radius[fastest] > much * grains.radius[smallest])
+          why = described(smallest) + " has a radius of " + in_digits(grains.radius[smallest]) +
+                " m: in a contact sub-step no grain may go farther than " + in_digits(largest_move) + " m. " + why;
+        throw Divergence(why);
+      }
     return std::max(1., n_substeps);
   }
 } // namespace alluvium::contacts

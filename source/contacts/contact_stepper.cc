@@ -47,6 +47,13 @@ namespace alluvium::contacts
           return false;
       return true;
     }
+
+    void refuse_with_soft_spheres(const bool asks_for_more)
+    {
+      check_user(!asks_for_more,
+                 "Contacts/Contact model: soft spheres know neither rolling friction nor cohesion, and of contact laws "
+                 "only Coulomb's.");
+    }
   } // namespace
 
 
@@ -59,7 +66,7 @@ namespace alluvium::contacts
     PluginChoice<ContactSolver> choice;
     PluginChoice<ContactLaw>    law_choice;
     PluginChoice<Cohesion>      cohesion_choice;
-    ContactWork                 work;
+    LocalContactProblem         local;
     Rest                        rest;
     double                      time = 0.; // when the next step starts [s]
 
@@ -83,23 +90,23 @@ namespace alluvium::contacts
      * Whether ranks share the work on @p n grains. Cohesion and soft spheres sum forces pair by pair in the order of
      * all grains, so there every rank does all.
      */
-    bool shares(const std::size_t n) const
+    bool is_partitioned(const std::size_t n) const
     {
-      return work.n_ranks() > 1 && model == "non-smooth" && acting_cohesion() == nullptr &&
-             n >= settings.least_share * work.n_ranks();
+      return local.n_ranks() > 1 && model == "non-smooth" && acting_cohesion() == nullptr &&
+             n >= settings.least_grains_a_rank * local.n_ranks();
     }
 
     void forget()
     {
-      work.neighbours.forget();
-      work.repeat_search({});
+      local.neighbours.forget();
+      local.repeat_search({});
       rest.forget();
     }
 
   private:
     mutable std::unique_ptr<ContactSolver> own_solver;
 
-    ContactSubstep substep{settings, work};
+    ContactSubstep substep{settings, local};
 
     const ContactSolver &solver() const
     {
@@ -120,7 +127,7 @@ namespace alluvium::contacts
   {
     ContactReport     report;
     const std::size_t n     = grains.n();
-    auto             &walls = work.geometry.walls;
+    auto             &walls = local.geometry.walls;
     walls.set_time(time);
     if (loads.force[0].size() != n || loads.force[1].size() != n || loads.drag.size() != n)
       throw std::logic_error("ContactStepper::advance: the loads have another size than the grains.");
@@ -131,7 +138,7 @@ namespace alluvium::contacts
            dealii::ExcMessage("The grains are sorted by their ids."));
     for (const grains::WallSegment &w : walls.segments())
       report.wall_force[w.name] = {{0., 0.}};
-    work.all_touched.assign(n, 0);
+    local.all_touched.assign(n, 0);
     if (n == 0 || !(dt > 0.))
       return report;
 
@@ -139,41 +146,39 @@ namespace alluvium::contacts
     const Cohesion *const cohesion  = acting_cohesion();
     materials.law                   = acting_law();
     const ContactScales scales      = make_scales(grains, gravity);
-    work.repeat_search(grains, loads, shares(n));
+    local.repeat_search(grains, loads, is_partitioned(n));
     if (model == "soft-sphere")
       {
-        check_user(!materials.rolls && !materials.law && !cohesion,
-                   "Contacts/Contact model: soft spheres know neither rolling friction nor cohesion, and of contact "
-                   "laws only Coulomb's.");
+        refuse_with_soft_spheres(materials.rolls || materials.law || cohesion);
         return soft_spheres.advance(grains,
                                     loads,
                                     dt,
                                     materials,
                                     settings.rotation,
                                     settings.skin * scales.d_max,
-                                    work.geometry,
-                                    work.neighbours,
-                                    work.all_touched);
+                                    local.geometry,
+                                    local.neighbours,
+                                    local.all_touched);
       }
     rest.steps       = settings.rest_steps;
-    rest.periodicity = work.geometry.periodicity;
+    rest.periodicity = local.geometry.periodicity;
     const Rest::Scales rest_scales{dt, scales.g, scales.mean_mass * scales.g, scales.d_min};
     if (walls.act(dt))
       rest.forget();
     else if (rest.holds(grains, loads, rest_scales))
-      return rest.stand_still(loads, grains, work.all_touched);
+      return rest.stand_still(loads, grains, local.all_touched);
 
     const unsigned int steps = std::max(count_substeps(grains, loads, dt, settings.max_move * scales.d_min),
                                         walls.count_substeps(dt, scales.d_min));
     // Until the end, contact forces are impulses, summed over the sub-steps.
     grains.contact_force[0].assign(n, 0.);
     grains.contact_force[1].assign(n, 0.);
-    work.begin(grains, loads, shares(n));
+    local.begin(grains, loads, is_partitioned(n));
     substep.begin({scales, std::move(materials), &solver(), cohesion, dt / steps, tolerance_factor});
     for (unsigned int s = 0; s < steps; ++s)
       substep.advance(report);
     substep.finish(report);
-    work.end();
+    local.end();
 
     for (std::size_t k = 0; k < n; ++k)
       {
@@ -186,9 +191,9 @@ namespace alluvium::contacts
           report.wall_force[walls.segments()[k].name][d] += substep.wall_impulses()[k][d] / dt;
         report.wall_work += substep.wall_impulses()[k][2];
       }
-    rest.watch(grains, loads, rest_scales, work.all_touched, report);
+    rest.watch(grains, loads, rest_scales, local.all_touched, report);
     // grains that touch each other only, in mid-water, are slow, but not at rest
-    if (rest.steps > 0 && report.n_quiet >= rest.steps && !all_are_supported(grains, work.archive()))
+    if (rest.steps > 0 && report.n_quiet >= rest.steps && !all_are_supported(grains, local.archive()))
       {
         rest.forget();
         report.n_quiet = 0;
@@ -221,6 +226,15 @@ namespace alluvium::contacts
       prm, "Cohesion", "none", "What attracts grains, and grains and walls.");
   }
 
+  void ContactStepper::parse_parameters()
+  {
+    implementation->choice.parse_parameters();
+    implementation->law_choice.parse_parameters();
+    implementation->cohesion_choice.parse_parameters();
+    if (implementation->model == "soft-sphere")
+      refuse_with_soft_spheres(implementation->acting_law() || implementation->acting_cohesion());
+  }
+
   ContactSettings &ContactStepper::settings()
   {
     return implementation->settings;
@@ -228,8 +242,10 @@ namespace alluvium::contacts
 
   void ContactStepper::set_walls(std::vector<grains::WallSegment> walls)
   {
-    make_materials(settings(), walls);
-    implementation->work.geometry.walls.set(std::move(walls));
+    const ContactMaterials materials = make_materials(settings(), walls);
+    if (implementation->model == "soft-sphere")
+      refuse_with_soft_spheres(materials.rolls);
+    implementation->local.geometry.walls.set(std::move(walls));
     implementation->forget();
   }
 
@@ -240,13 +256,13 @@ namespace alluvium::contacts
 
   const std::vector<grains::WallSegment> &ContactStepper::walls() const
   {
-    return implementation->work.geometry.walls.segments();
+    return implementation->local.geometry.walls.segments();
   }
 
   void ContactStepper::set_periodicity(const grains::Periodicity &periodicity)
   {
-    implementation->work.geometry.periodicity = periodicity;
-    implementation->work.neighbours.forget();
+    implementation->local.geometry.periodicity = periodicity;
+    implementation->local.neighbours.forget();
   }
 
   ContactReport ContactStepper::advance(grains::GrainArrays        &grains,
@@ -260,15 +276,15 @@ namespace alluvium::contacts
 
   void ContactStepper::set_communicator(const MPI_Comm communicator)
   {
-    implementation->work.set_communicator(communicator);
+    implementation->local.set_communicator(communicator);
   }
 
-  std::string ContactStepper::sharing(const std::size_t n_grains) const
+  std::string ContactStepper::partitioning(const std::size_t n_grains) const
   {
-    const unsigned int n_ranks = implementation->work.n_ranks();
+    const unsigned int n_ranks = implementation->local.n_ranks();
     if (n_ranks == 1)
       return "on one rank";
-    if (implementation->shares(n_grains))
+    if (implementation->is_partitioned(n_grains))
       return "shared by " + std::to_string(n_ranks) + " ranks";
     return std::string("not shared, all ") + std::to_string(n_ranks) + " ranks do the same: " +
            (implementation->model != "non-smooth"          ? "soft spheres"
@@ -278,17 +294,17 @@ namespace alluvium::contacts
 
   ContactTraffic ContactStepper::traffic() const
   {
-    return implementation->work.traffic();
+    return implementation->local.traffic();
   }
 
   const std::vector<std::uint8_t> &ContactStepper::touched() const
   {
-    return implementation->work.all_touched;
+    return implementation->local.all_touched;
   }
 
   std::vector<ContactForce> ContactStepper::forces(const grains::GrainArrays &grains) const
   {
-    return list_contact_forces(implementation->work,
+    return list_contact_forces(implementation->local,
                                grains,
                                implementation->model == "soft-sphere" ? &implementation->soft_spheres : nullptr,
                                implementation->acting_cohesion());
@@ -298,9 +314,9 @@ namespace alluvium::contacts
   {
     if (implementation->model != "soft-sphere")
       return 0.;
-    const ContactGeometry &geometry = implementation->work.geometry;
+    const ContactGeometry &geometry = implementation->local.geometry;
     ContactNeighbours      now; // the pairs in use may be older than the last change
-    now.set_archive(implementation->work.archive());
+    now.set_archive(implementation->local.archive());
     now.search(grains, geometry, 0.);
     return implementation->soft_spheres.spring_energy(grains, geometry, now.pairs);
   }
@@ -308,7 +324,7 @@ namespace alluvium::contacts
   ContactMemory ContactStepper::memory() const
   {
     const bool    has_history = implementation->model == "soft-sphere" || implementation->acting_cohesion() != nullptr;
-    ContactMemory result{implementation->work.geometry.walls.positions(), implementation->rest, {}};
+    ContactMemory result{implementation->local.geometry.walls.positions(), implementation->rest, {}};
     if (has_history)
       result.history = archive();
     return result;
@@ -318,7 +334,7 @@ namespace alluvium::contacts
   {
     if (memory.history)
       set_archive(*memory.history);
-    implementation->work.geometry.walls.place(memory.wall_positions);
+    implementation->local.geometry.walls.place(memory.wall_positions);
     implementation->rest = memory.rest;
   }
 
@@ -329,22 +345,22 @@ namespace alluvium::contacts
 
   ContactArchive ContactStepper::archive() const
   {
-    ContactArchive result = implementation->work.archive();
-    result.wall_positions = implementation->work.geometry.walls.positions();
+    ContactArchive result = implementation->local.archive();
+    result.wall_positions = implementation->local.geometry.walls.positions();
     return result;
   }
 
   void ContactStepper::set_archive(ContactArchive archive)
   {
-    implementation->work.geometry.walls.place(archive.wall_positions);
-    implementation->work.neighbours.set_archive(std::move(archive));
-    implementation->work.repeat_search({});
+    implementation->local.geometry.walls.place(archive.wall_positions);
+    implementation->local.neighbours.set_archive(std::move(archive));
+    implementation->local.repeat_search({});
     implementation->rest.forget();
   }
 
   void ContactStepper::save(ByteWriter &writer) const
   {
-    const ContactSearchRecord last = implementation->work.last_search();
+    const ContactSearchRecord last = implementation->local.last_search();
     writer.put<std::uint8_t>(last.known);
     for (const auto *values : {&last.x, &last.y, &last.wall_positions})
       writer.put(*values);
@@ -361,7 +377,7 @@ namespace alluvium::contacts
       *values = reader.get_vector<double>();
     last.skin = reader.get<double>();
     last.left = reader.get<double>();
-    implementation->work.repeat_search(std::move(last));
+    implementation->local.repeat_search(std::move(last));
     implementation->rest.load(reader);
   }
 } // namespace alluvium::contacts

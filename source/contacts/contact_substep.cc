@@ -1,14 +1,16 @@
 #include <alluvium/contacts/contact_plausibility.h>
 #include <alluvium/contacts/contact_substep.h>
-#include <alluvium/contacts/solvers/cold_start.h>
 #include <alluvium/contacts/solvers/contact_measure.h>
 #include <alluvium/contacts/solvers/contact_reductions.h>
+#include <alluvium/contacts/solvers/hydrostatic_guess.h>
 #include <alluvium/utilities/divergence.h>
 
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <sstream>
 #include <stdexcept>
 
 namespace alluvium::contacts
@@ -16,26 +18,26 @@ namespace alluvium::contacts
   void ContactSubstep::begin(Step new_step)
   {
     step = std::move(new_step);
-    motion.reset(work.geometry.walls.segments().size());
+    motion.reset(local.geometry.walls.segments().size());
   }
 
 
   void ContactSubstep::advance(const double h, const unsigned int level, ContactReport &report)
   {
-    work.geometry.walls.begin_substep(h);
-    bodies.set(work.grains(), work.loads(), h, settings.rotation);
+    local.geometry.walls.begin_substep(h);
+    bodies.set(local.grains(), local.loads(), h, settings.rotation);
     set_margins(h);
-    work.neighbours.rescale(h);
+    local.neighbours.rescale(h);
     search_if_due();
     const Cohesion *const cohesion = step.cohesion;
-    bonds.reset(cohesion ? work.n_all() : 0, cohesion ? work.geometry.walls.segments().size() : 0);
+    bonds.reset(cohesion ? local.n_all() : 0, cohesion ? local.geometry.walls.segments().size() : 0);
     if (cohesion)
-      bonds.attract(work.grains(),
-                    work.geometry,
+      bonds.attract(local.grains(),
+                    local.geometry,
                     *cohesion,
                     h,
                     std::max(margins.delta, 1e-9 * step.scales.d_min),
-                    work.neighbours.pairs,
+                    local.neighbours.pairs,
                     bodies);
 
     const bool may_halve = level < settings.max_halvings;
@@ -44,12 +46,12 @@ namespace alluvium::contacts
     const bool bounces = step.materials.bounces || step.materials.law;
     // Most impulses are no larger than what the masses alone allow, which needs no sums over all grains.
     const double extra = margins.wall_speed + margins.depenetration_speed;
-    if (const double largest = max_over_ranks(work.communicator(), outcome.largest_impulse);
+    if (const double largest = max_over_ranks(local.communicator(), outcome.largest_impulse);
         bounces || has_diverged(largest, {0.99 * step.scales.mass, 0., 0.}, extra))
       {
-        const auto before = sum_motion(bodies.free, work.n_owned(), work.n_all(), work.communicator());
+        const auto before = sum_motion(bodies.free, local.n_owned(), local.n_all(), local.communicator());
         diverged          = has_diverged(largest, before, extra);
-        gained_energy     = bounces && has_gained_energy(problem, work.n_all(), before, extra);
+        gained_energy     = bounces && has_gained_energy(problem, local.n_all(), before, extra);
       }
     const bool solved =
       outcome.solution.converged || (outcome.solution.stalled && !(may_halve && settings.halve_stalled));
@@ -63,9 +65,9 @@ namespace alluvium::contacts
     if (diverged || gained_energy)
       {
         if (diverged)
-          work.neighbours.drop_impulses();
+          local.neighbours.drop_impulses();
         margins.inelastic = true;
-        slack             = work.slack();
+        slack             = local.slack();
         outcome           = solve(report, false);
       }
     if (outcome.solution.stalled)
@@ -73,11 +75,11 @@ namespace alluvium::contacts
     else if (!outcome.solution.converged)
       ++report.n_unconverged;
 
-    report.n_contacts = motion.move(problem, active, bodies, bonds, h, settings.rotation, work);
+    report.n_contacts = motion.move(problem, active, bodies, bonds, h, settings.rotation, local);
     if (cohesion)
-      ContactBonds::update(work.grains(), work.geometry, *cohesion, work.neighbours.pairs);
-    work.geometry.walls.move(h);
-    work.neighbours.walls_moved(h * margins.wall_speed);
+      ContactBonds::update(local.grains(), local.geometry, *cohesion, local.neighbours.pairs);
+    local.geometry.walls.move(h);
+    local.neighbours.walls_moved(h * margins.wall_speed);
     if (!outcome.solution.converged || outcome.too_far || diverged || gained_energy)
       look_for_crushed(report);
     ++report.n_substeps;
@@ -91,17 +93,17 @@ namespace alluvium::contacts
   /** Scales of the sub-step: what gravity does in it; without gravity, what moves. */
   void ContactSubstep::set_margins(const double h)
   {
-    ContactCommunicator *const communicator = work.communicator();
+    ContactCommunicator *const communicator = local.communicator();
     const ContactScales       &scales       = step.scales;
     margins                                 = {};
     margins.h                               = h;
     margins.base_h                          = step.base_h;
-    margins.wall_speed                      = work.geometry.walls.largest_speed();
-    margins.speeds                          = measure_speeds(work.grains(), work.n_owned(), work.n_all(), communicator);
-    double velocity_scale                   = scales.g * h;
+    margins.wall_speed                      = local.geometry.walls.largest_speed();
+    margins.speeds        = measure_speeds(local.grains(), local.n_owned(), local.n_all(), communicator);
+    double velocity_scale = scales.g * h;
     if (!(velocity_scale > 0.))
       velocity_scale = std::max({margins.speeds.largest[0],
-                                 max_over_ranks(communicator, largest_speeds(bodies.free, work.n_owned())[0]),
+                                 max_over_ranks(communicator, largest_speeds(bodies.free, local.n_owned())[0]),
                                  margins.wall_speed});
     if (!(velocity_scale > 0.))
       velocity_scale = 1e-3 * scales.d_min / h;
@@ -123,6 +125,28 @@ namespace alluvium::contacts
   }
 
 
+  /**
+   * A distance to look for pairs that is above @p needed, by a fifth of what motion adds to @p at_rest where a periodic
+   * domain is so wide: a grain must meet another one on one side only.
+   */
+  double ContactSubstep::with_margin(const double needed, const double at_rest) const
+  {
+    double fits = std::numeric_limits<double>::infinity();
+    for (const double length : local.geometry.periodicity.length)
+      if (length > 0.)
+        fits = std::min(fits, 0.5 * length - step.scales.d_max);
+    // a domain that is too narrow for grains at rest is the user's mistake, which the search reports
+    if (needed >= 0.999 * fits && at_rest + settings.skin * step.scales.d_max < fits)
+      {
+        std::ostringstream text;
+        text << "grains, or walls, are so fast that in " << margins.h << " s they go " << needed
+             << " m, about half of the domain or more where it is periodic.";
+        throw Divergence(text.str());
+      }
+    return std::min(needed + 0.2 * (needed - at_rest), std::max(0.999 * fits, needed));
+  }
+
+
   void ContactSubstep::search_if_due()
   {
     const double h = margins.h;
@@ -130,31 +154,31 @@ namespace alluvium::contacts
       h * (margins.speeds.largest[0] + margins.speeds.largest[1] + margins.wall_speed + 2. * step.scales.g * h);
     const double alert_distance =
       std::max(margins.alert_distance, step.cohesion ? step.cohesion->reach(0.5 * step.scales.d_max) : 0.);
-    slack = work.known() ? work.slack() : -1.;
+    slack = local.known() ? local.slack() : -1.;
     if (slack >= alert_distance + reach)
       return;
     slack = std::max(settings.skin * step.scales.d_max + alert_distance - margins.alert_distance,
-                     1.2 * reach + alert_distance);
-    work.search(slack);
-    if (work.is_shared()) // with other grains now
-      bodies.set(work.grains(), work.loads(), h, settings.rotation);
+                     with_margin(reach + alert_distance, alert_distance));
+    local.search(slack);
+    if (local.is_partitioned()) // with other grains now
+      bodies.set(local.grains(), local.loads(), h, settings.rotation);
   }
 
 
   /** The contacts that are close or closing, and with @p keep those that were there before. */
   void ContactSubstep::set_problem(const bool keep)
   {
-    const grains::GrainArrays &grains = work.grains();
-    problem.communicator              = work.communicator();
-    problem.n_owned_discs             = work.n_owned();
+    const grains::GrainArrays &grains = local.grains();
+    problem.communicator              = local.communicator();
+    problem.n_owned_discs             = local.n_owned();
     active.select(grains,
                   bodies,
-                  work.geometry,
+                  local.geometry,
                   step.materials,
                   margins,
                   keep,
-                  work.neighbours.n_colours,
-                  work.neighbours.pairs,
+                  local.neighbours.n_colours,
+                  local.neighbours.pairs,
                   problem);
     problem.discs   = bodies.free;
     problem.n_discs = bodies.n_discs();
@@ -192,7 +216,7 @@ namespace alluvium::contacts
     constexpr double      resting   = 0.02; // rms speed over g h
     constexpr std::size_t least_bed = 1000; // smaller ones need no help
     const bool            is_resting =
-      step.scales.g > 0. && work.n_all() >= least_bed && margins.speeds.mean < resting * problem.velocity_scale;
+      step.scales.g > 0. && local.n_all() >= least_bed && margins.speeds.mean < resting * problem.velocity_scale;
     // A bed at rest, or a cold one, is not on the move, however many sweeps it takes.
     const bool on_the_move     = margins.speeds.mean > settings.moving_speed * problem.velocity_scale;
     report.was_loosened        = report.was_loosened || (on_the_move && step.tolerance_factor > 1.);
@@ -203,16 +227,17 @@ namespace alluvium::contacts
       {
         set_problem(keep);
         Assert(is_consistent(problem), dealii::ExcMessage("The contacts are not what the solvers rely on."));
-        const grains::GrainArrays &grains = work.grains();
+        const grains::GrainArrays &grains = local.grains();
         const DiscPlaces           places{grains.position[0], grains.position[1], grains.radius};
         if (is_resting)
-          moments.begin(problem, places, work.geometry.periodicity.length);
+          moments.begin(problem, places, local.geometry.periodicity.length);
         problem.correction = nullptr;
-        if (!keep && settings.cold_start && step.scales.g > 0. && active.is_cold(work.n_all(), problem))
+        if (!keep && settings.hydrostatic_guess && step.scales.g > 0. && active.is_cold(local.n_all(), problem))
           {
             tolerance.at_rest = true; // also in later rounds
             find_weights();
-            solution = solve_cold(problem, places, {step.scales.down, weight}, *step.solver, tolerance);
+            solution =
+              solve_from_hydrostatic_guess(problem, places, {step.scales.down, weight}, *step.solver, tolerance);
           }
         else
           {
@@ -231,10 +256,10 @@ namespace alluvium::contacts
                                                              problem.velocity_scale;
         report.n_sweeps += solution.sweeps;
         report.n_updates += static_cast<unsigned long long>(solution.sweeps) * problem.n_counted();
-        outcome.largest_impulse = active.take_impulses(problem, work.neighbours.pairs);
+        outcome.largest_impulse = active.take_impulses(problem, local.neighbours.pairs);
         if (solution.converged && solution.residual > tolerance.residual)
           ++report.n_loose;
-        const auto speeds = largest_over_ranks(work.communicator(), largest_speeds(problem.discs, work.n_owned()));
+        const auto speeds = largest_over_ranks(local.communicator(), largest_speeds(problem.discs, local.n_owned()));
         if (!std::isfinite(speeds[0]))
           throw Divergence("A grain velocity is not a finite number after the contact solve.");
         outcome.speed   = speeds[0];
@@ -259,24 +284,24 @@ namespace alluvium::contacts
       return false;
     if (search)
       {
-        slack = 1.2 * reach;
-        work.search(slack, problem.discs);
-        if (work.is_shared())
-          bodies.set(work.grains(), work.loads(), margins.h, settings.rotation);
-        active.restart_from_impulses(work.neighbours.pairs);
+        slack = with_margin(reach, 0.);
+        local.search(slack, problem.discs);
+        if (local.is_partitioned())
+          bodies.set(local.grains(), local.loads(), margins.h, settings.rotation);
+        active.restart_from_impulses(local.neighbours.pairs);
       }
     const bool found =
-      active.add_violated(work.grains(), bodies, work.geometry, problem.discs, margins.h, work.neighbours.pairs);
-    return search || any_over_ranks(work.communicator(), found);
+      active.add_violated(local.grains(), bodies, local.geometry, problem.discs, margins.h, local.neighbours.pairs);
+    return search || any_over_ranks(local.communicator(), found);
   }
 
 
   /** After a sub-step that was not solved: who is in or behind whom? What was solved leaves no such contacts. */
   void ContactSubstep::look_for_crushed(ContactReport &report) const
   {
-    const grains::GrainArrays &grains = work.grains();
-    const auto                &walls  = work.geometry.walls;
-    const ContactCandidates   &pairs  = work.neighbours.pairs;
+    const grains::GrainArrays &grains = local.grains();
+    const auto                &walls  = local.geometry.walls;
+    const ContactCandidates   &pairs  = local.neighbours.pairs;
     Crush                      worst;
     double                     partner = 0.; // the wall's number and 1, or the grain's beyond those
     for (std::size_t k = 0; k < problem.contacts.size(); ++k)
@@ -289,7 +314,7 @@ namespace alluvium::contacts
         const double       ri = grains.radius[c.i], rj = wall ? 0. : grains.radius[c.j];
         ContactPoint       point{};
         if (!wall)
-          point = touch(grains, work.geometry.periodicity, c.i, c.j);
+          point = touch(grains, local.geometry.periodicity, c.i, c.j);
         else
           {
             const grains::WallSegment &w = walls.segments()[pair.j];
@@ -313,7 +338,7 @@ namespace alluvium::contacts
           }
       }
     // one of those that are deepest on any rank: the one of the highest grain and partner
-    ContactCommunicator *const communicator = work.communicator();
+    ContactCommunicator *const communicator = local.communicator();
     const double               depth        = max_over_ranks(communicator, worst.depth);
     const auto                 agree        = [&](const bool mine, const double number) {
       return max_over_ranks(communicator, mine ? number : 0.);
@@ -336,7 +361,7 @@ namespace alluvium::contacts
 
   void ContactSubstep::find_weights()
   {
-    const grains::GrainLoads    &loads = work.loads();
+    const grains::GrainLoads    &loads = local.loads();
     const std::array<double, 2> &down  = step.scales.down;
     weight.resize(bodies.n_discs());
     for (std::size_t k = 0; k < weight.size(); ++k)
@@ -347,8 +372,8 @@ namespace alluvium::contacts
   void ContactSubstep::finish(ContactReport &report)
   {
     active.measure_overlaps(
-      work.grains(), work.geometry, problem, work.neighbours.pairs, report.mean_penetration, report.max_penetration);
-    report.n_contacts = count_over_ranks(work.communicator(), report.n_contacts);
-    report.n_updates  = count_over_ranks(work.communicator(), report.n_updates);
+      local.grains(), local.geometry, problem, local.neighbours.pairs, report.mean_penetration, report.max_penetration);
+    report.n_contacts = count_over_ranks(local.communicator(), report.n_contacts);
+    report.n_updates  = count_over_ranks(local.communicator(), report.n_updates);
   }
 } // namespace alluvium::contacts

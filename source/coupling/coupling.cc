@@ -35,6 +35,8 @@ namespace alluvium::coupling
 
   void Coupling::parse_parameters()
   {
+    scheme_choice.parse_parameters();
+    solve.parse_parameters();
     settings           = overlap_parameters.settings();
     settings.keep_arms = solve.couples_rotation();
     check_user(

@@ -69,7 +69,8 @@ namespace alluvium::coupling
     GrainImages then = images_of(before), images = images_of(now);
     other_mirrors.add_images(then, largest);
     other_mirrors.add_images(images, largest); // the last, for sees()
-    if (!grid.empty() && other_mirrors.empty() && settings.rule != OverlapSettings::Rule::centre && !settings.keep_arms)
+    if (!grid.empty() && other_mirrors.empty() && settings.rule != OverlapSettings::Rule::particle_centre &&
+        !settings.keep_arms)
       cut_on_grid(now, images, then, moved, settings, pieces);
     else
       cut_cells(now, images, then, moved, settings, pieces);
@@ -102,7 +103,7 @@ namespace alluvium::coupling
     pieces.terms.begin.assign(1, 0);
     pieces.reserve(old.n());
     const auto overlap_of_disc =
-      settings.shape_of_discs() == OverlapSettings::Shape::smooth ? geometry::smooth_overlap : geometry::overlap;
+      settings.shape_of_discs() == OverlapSettings::Shape::parabolic ? geometry::smooth_overlap : geometry::overlap;
     std::vector<unsigned int> candidates;
     for (unsigned int c = 0; c < polygons.size(); ++c)
       {
@@ -116,7 +117,7 @@ namespace alluvium::coupling
               {
                 const unsigned int     g      = now.grain[k];
                 const geometry::Point2 centre = {{now.x[k], now.y[k]}};
-                geometry::Overlap      o      = settings.rule == OverlapSettings::Rule::centre
+                geometry::Overlap      o      = settings.rule == OverlapSettings::Rule::particle_centre
                                                   ? cell_of_centre(centre, polygon)
                                                   : overlap_of_disc({centre, discs.radius[g]}, polygon);
                 if (o.area > 0. && other_mirrors.sees(now, k, o.centroid))

@@ -7,8 +7,11 @@
 
 #include <boost/math/tools/roots.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
+#include <vector>
 
 namespace alluvium::coupling
 {
@@ -59,6 +62,26 @@ namespace alluvium::coupling
   }
 
 
+  namespace
+  {
+    /** Call @p what(number of the piece, void fraction at its centroid) for all pieces of this rank. */
+    template <typename What>
+    void for_each_piece(const Coupling &coupling, const fluid::FluidSpace<2> &space, const What &what)
+    {
+      const auto &pieces = coupling.overlap().terms();
+      const auto &eps    = coupling.void_fraction();
+      for (unsigned int c = 0; c < space.cells().size(); ++c)
+        for (unsigned int k = pieces.begin[c]; k < pieces.begin[c + 1]; ++k)
+          {
+            double e = 0.;
+            for (unsigned int v = 0; v < space.n_nodes_per_cell(); ++v)
+              e += pieces.shape[k].phi[v] * eps.local_element(space.cells()[c].node[v]);
+            what(k, e);
+          }
+    }
+  } // namespace
+
+
   double permeability_of_pieces(const Coupling               &coupling,
                                 const fluid::FluidSpace<2>   &space,
                                 const fluid::FluidProperties &fluid,
@@ -67,20 +90,32 @@ namespace alluvium::coupling
   {
     constexpr double smallest_eps = 0.05; // that drag laws know
     const auto      &pieces       = coupling.overlap().terms();
-    const auto      &eps          = coupling.void_fraction();
     double           sum          = 0.;
-    for (unsigned int c = 0; c < space.cells().size(); ++c)
-      for (unsigned int k = pieces.begin[c]; k < pieces.begin[c + 1]; ++k)
-        {
-          double e = 0.;
-          for (unsigned int v = 0; v < space.n_nodes_per_cell(); ++v)
-            e += pieces.shape[k].phi[v] * eps.local_element(space.cells()[c].node[v]);
-          e              = std::max(e, smallest_eps);
-          const double d = 2. * grains.fluid_radius[coupling.overlap().grain()[k]];
-          sum += pieces.shape[k].area * coupling.drag_law().gamma({e, 0., d, fluid.density, fluid.viscosity}) / (e * e);
-        }
+    for_each_piece(coupling, space, [&](const unsigned int k, const double void_fraction) {
+      const double e = std::max(void_fraction, smallest_eps);
+      const double d = 2. * grains.fluid_radius[coupling.overlap().grain()[k]];
+      sum += pieces.shape[k].area * coupling.drag_law().gamma({e, 0., d, fluid.density, fluid.viscosity}) / (e * e);
+    });
     sum = dealii::Utilities::MPI::sum(sum, space.communicator());
     return sum > 0. ? fluid.viscosity * area / sum : 0.;
+  }
+
+
+  double void_fraction_of_densest(const Coupling &coupling, const fluid::FluidSpace<2> &space, const double share)
+  {
+    constexpr unsigned int n_bins = 1000;
+    std::vector<double>    solid(n_bins, 0.);
+    for_each_piece(coupling, space, [&](const unsigned int k, const double void_fraction) {
+      const double bin = std::clamp(void_fraction, 0., 1.) * n_bins;
+      solid[std::min(static_cast<unsigned int>(bin), n_bins - 1)] += coupling.overlap().terms().shape[k].area;
+    });
+    dealii::Utilities::MPI::sum(solid, space.communicator(), solid);
+    const double all = std::accumulate(solid.begin(), solid.end(), 0.);
+    double       sum = 0.;
+    for (unsigned int bin = 0; all > 0. && bin < n_bins; ++bin)
+      if ((sum += solid[bin]) >= share * all)
+        return (bin + 0.5) / n_bins;
+    return 1.;
   }
 
 

@@ -19,19 +19,20 @@ namespace alluvium::coupling
     prm.add_parameter(
       "Filter shape",
       shape,
-      "How a grain is spread over the filter's disc, the kernel: `even` (top hat), or `smooth` (parabolic, "
-      "Epanechnikov), as 1 - q^2/R^2 of the distance q from its centre, so that nothing jumps where the edge of the "
-      "disc crosses cells; one of `2.5 d` is as wide as an even one of `2 d`. With `Filter radius = grain` always "
-      "even.",
-      Patterns::Selection("even|smooth"));
+      "How a grain is spread over the filter's disc, the kernel: `top-hat` (evenly), or `parabolic` (Epanechnikov), as "
+      "1 - q^2/R^2 of the distance q from its centre, so that nothing jumps where the edge of the disc crosses cells; "
+      "one of `2.5 d` is as wide as a top hat of `2 d`. With `Filter radius = grain` always a top hat. `even` and "
+      "`smooth` are old names of the two.",
+      Patterns::Selection("top-hat|parabolic|even|smooth"));
     prm.add_parameter(
       "Overlap rule",
       rule,
       "How shape functions are integrated over the pieces of a grain: `centroid` (the paper: at the piece's centroid, "
       "exact for linear functions), `moments` (with second moments: exact for bilinear functions on parallelograms) "
-      "or, for comparison only, `centre` (the particle-centre method: a grain is spread evenly over the cell that has "
-      "its centre, and jumps from cell to cell; there is no filter).",
-      Patterns::Selection("centroid|moments|centre"));
+      "or, for comparison only, `particle-centre` (PCM: a grain is spread evenly over the cell that has its centre, "
+      "and "
+      "jumps from cell to cell; there is no filter; `centre` is its old name).",
+      Patterns::Selection("centroid|moments|particle-centre|centre"));
     prm.add_parameter("Overlap tolerance",
                       tolerance,
                       "A grain that has moved by less than this times its diameter keeps its pieces; in a bed at rest "
@@ -62,14 +63,16 @@ namespace alluvium::coupling
                      radius + "'.");
         result.filter_radius = x;
       }
-    result.shape = shape == "smooth" ? OverlapSettings::Shape::smooth : OverlapSettings::Shape::even;
-    check_user(result.shape_of_discs() == OverlapSettings::Shape::even || result.filter_radius >= 1.,
-               "Coupling/Filter radius: a smooth filter needs at least `1 d`, since in the middle it weighs twice its "
-               "mean; got '" +
-                 radius + "'.");
-    result.rule      = rule == "centroid" ? OverlapSettings::Rule::centroid
-                       : rule == "centre" ? OverlapSettings::Rule::centre
-                                          : OverlapSettings::Rule::moments;
+    result.shape =
+      shape == "parabolic" || shape == "smooth" ? OverlapSettings::Shape::parabolic : OverlapSettings::Shape::top_hat;
+    check_user(
+      result.shape_of_discs() == OverlapSettings::Shape::top_hat || result.filter_radius >= 1.,
+      "Coupling/Filter radius: a parabolic filter needs at least `1 d`, since in the middle it weighs twice its "
+      "mean; got '" +
+        radius + "'.");
+    result.rule      = rule == "centroid"  ? OverlapSettings::Rule::centroid
+                       : rule == "moments" ? OverlapSettings::Rule::moments
+                                           : OverlapSettings::Rule::particle_centre;
     result.tolerance = tolerance;
     return result;
   }

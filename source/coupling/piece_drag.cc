@@ -16,6 +16,13 @@ namespace alluvium::coupling
   }
 
 
+  void PieceDrag::parse_parameters()
+  {
+    law_choice.parse_parameters();
+    regularisation_choice.parse_parameters();
+  }
+
+
   void PieceDrag::find(const fluid::FluidSpace<2>   &space,
                        const fluid::Vector          &eps,
                        const fluid::FluidProperties &fluid,

@@ -62,8 +62,12 @@ namespace alluvium::coupling
         once().loads(state, force, sums, first, loads);
       }
 
+      std::vector<std::string> parts() const override { return {scheme}; }
+
     private:
-      TimeScheme &once() const { return part("semi-implicit per grain"); }
+      static constexpr const char *scheme = "semi-implicit per grain";
+
+      TimeScheme &once() const { return part(scheme); }
 
       IterationLimit limit{10, 1e-2};
     };

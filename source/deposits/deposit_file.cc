@@ -17,9 +17,10 @@ namespace alluvium::deposits
         "density, vx, vy, omega (SI units).");
     }
 
+    void parse_parameters() override { check_user(!file.empty(), "The deposit 'file' needs the parameter 'File'."); }
+
     std::vector<NewGrain> make(const DepositContext &context) const override
     {
-      check_user(!file.empty(), "The deposit 'file' needs the parameter 'File'.");
       return read_grain_table(path_from(context.directory, file), context.density);
     }
 

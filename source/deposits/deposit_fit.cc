@@ -1,4 +1,6 @@
 #include <alluvium/deposits/deposit_fit.h>
+#include <alluvium/utilities/digits.h>
+#include <alluvium/utilities/magnitudes.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <algorithm>
@@ -10,6 +12,15 @@ namespace alluvium::deposits
   double uniform_disc_area(const double d_min, const double ratio)
   {
     return M_PI / 12. * d_min * d_min * (1. + ratio + ratio * ratio);
+  }
+
+
+  void check_diameter(const std::string &name, const std::string &parameter, const double d)
+  {
+    using namespace magnitudes;
+    check_user(d >= smallest_length && d <= largest_length,
+               "The deposit '" + name + "' cannot have a '" + parameter + "' of " + in_digits(d) +
+                 " m; expected one from " + in_digits(smallest_length) + " to " + in_digits(largest_length) + " m.");
   }
 
 

@@ -29,9 +29,13 @@ namespace alluvium::deposits
       prm.add_parameter("Box", box_text, deposit_box_prose);
     }
 
+    void parse_parameters() override
+    {
+      check_diameter("lattice", "Diameter", diameter);
+    }
+
     std::vector<NewGrain> make(const DepositContext &context) const override
     {
-      check_user(diameter > 0., "The deposit 'lattice' needs a positive 'Diameter'.");
       const double a = spacing > 0. ? spacing : diameter * std::sqrt(M_PI / 4. / area_fraction);
       check_user(std::isfinite(a), "The deposit 'lattice' needs a positive 'Area fraction' or 'Spacing'.");
       check_user(a >= diameter * (1. - 1e-12),

@@ -31,9 +31,13 @@ namespace alluvium::deposits
       prm.add_parameter("Box", box_text, deposit_box_prose);
     }
 
+    void parse_parameters() override
+    {
+      check_diameter("random suspension", "Smallest diameter", d_min);
+    }
+
     std::vector<NewGrain> make(const DepositContext &context) const override
     {
-      check_user(d_min > 0., "The deposit 'random suspension' needs a positive 'Smallest diameter'.");
       const DepositBox  box = parse_deposit_box(box_text, context);
       const DepositRoom room(context, box, 0.5 * d_min, 0.5 * d_min * ratio + gap);
       const double      area = room.area();

@@ -44,10 +44,14 @@ namespace alluvium::deposits
       prm.add_parameter("Keep velocities", keep_velocities, "Whether grains start with the velocities they had then.");
     }
 
+    void parse_parameters() override
+    {
+      check_user(!output_folder.empty(), "The deposit 'end of a run' needs the parameter 'Output folder'.");
+    }
+
     std::vector<NewGrain> make(const DepositContext &context) const override
     {
-      namespace fs = std::filesystem;
-      check_user(!output_folder.empty(), "The deposit 'end of a run' needs the parameter 'Output folder'.");
+      namespace fs         = std::filesystem;
       const std::string in = path_from(context.directory, output_folder);
       check_user(fs::is_directory(in), "Grains/Deposit: end of a run: there is no folder '" + in + "'.");
       std::string folder = in + "/checkpoint";

@@ -75,16 +75,23 @@ namespace alluvium::deposits
 
     bool falls() const override { return true; }
 
-    std::vector<NewGrain> make(const DepositContext &context) const override
+    void parse_parameters() override
     {
-      check_user(d_min > 0., "The deposit 'settled bed' needs a positive 'Smallest diameter'.");
+      check_diameter("settled bed", "Smallest diameter", d_min);
       check_user(n_wanted > 0 || height > 0.,
                  "The deposit 'settled bed' has no grains: set its 'Number of grains' or 'Bed height'.");
+    }
+
+    std::vector<NewGrain> make(const DepositContext &context) const override
+    {
       const DepositBox box = parse_deposit_box(box_text, context);
       check_user(box.width() > 2. * d_min * ratio, "The deposit 'settled bed': its box is narrower than two grains.");
       check_user(!box.periodic[0] || box.width() > 4. * d_min * ratio,
                  "The deposit 'settled bed': its box is periodic and narrower than four grains.");
       check_fits(box);
+      if (context.warnings && !has_floor(context, box))
+        context.warnings->push_back("The deposit 'settled bed' is made on a floor at the lower end of its box, but in "
+                                    "the run no wall is there: the bed will fall. See Grains/Extra walls.");
       const DepositRoom room(context, box, 0.5 * d_min, 0.5 * d_min * ratio);
 
       // The bed settles along the axis nearest to gravity, whatever way the scene is tilted.
@@ -115,6 +122,21 @@ namespace alluvium::deposits
     }
 
   private:
+    /** Is there a wall below the box, where nothing else could bear the bed? */
+    static bool has_floor(const DepositContext &context, const DepositBox &box)
+    {
+      // other boundaries, and walls that lie aslant, may bear it, too
+      if (!context.moves || !context.sides.empty() || !(context.gravity[1] < 0.))
+        return true;
+      const double tolerance = 1e-6 * box.height();
+      return std::any_of(context.walls.begin(), context.walls.end(), [&](const grains::WallSegment &wall) {
+        const bool below = std::min(wall.a[1], wall.b[1]) <= box.lower[1] + tolerance &&
+                           std::max(wall.a[1], wall.b[1]) >= box.lower[1] - tolerance;
+        return below && wall.a[0] != wall.b[0] && std::max(wall.a[0], wall.b[0]) > box.lower[0] &&
+               std::min(wall.a[0], wall.b[0]) < box.upper[0];
+      });
+    }
+
     /** Refuse what cannot fit before anything is poured. */
     void check_fits(const DepositBox &box) const
     {

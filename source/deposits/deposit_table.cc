@@ -1,5 +1,7 @@
 #include <alluvium/deposits/deposit_table.h>
 #include <alluvium/utilities/atomic_file.h>
+#include <alluvium/utilities/digits.h>
+#include <alluvium/utilities/magnitudes.h>
 #include <alluvium/utilities/text_file.h>
 #include <alluvium/utilities/user_error.h>
 
@@ -129,10 +131,28 @@ namespace alluvium::deposits
               fail(what() + "is not a finite number.");
             seed.*(order[k]->member) = value;
           }
+        using namespace magnitudes;
+        const auto expect = [&](const bool good, const char *what, const double value, const std::string &range) {
+          if (!good)
+            fail(what + (" = " + alluvium::in_digits(value)) + ": expected " + range + ".");
+        };
         if (!(seed.radius > 0.))
           fail("the radius must be positive.");
         if (!(seed.density > 0.))
           fail("the density must be positive.");
+        expect(seed.radius >= smallest_length && seed.radius <= largest_length,
+               "radius",
+               seed.radius,
+               "metres, from " + alluvium::in_digits(smallest_length) + " to " + alluvium::in_digits(largest_length));
+        expect(seed.density >= 1e-6 && seed.density <= largest_density,
+               "density",
+               seed.density,
+               "kg/m^3, from 1e-06 to " + alluvium::in_digits(largest_density));
+        for (const double v : {seed.vx, seed.vy, seed.radius * seed.omega})
+          expect(std::abs(v) <= largest_speed,
+                 "a velocity",
+                 v,
+                 "metres per second, at most " + alluvium::in_digits(largest_speed));
         new_grains.push_back(seed);
       }
 

@@ -6,6 +6,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -43,30 +44,34 @@ namespace alluvium::fluid
 
 
   template <int dim>
+  bool BoundaryConditions<dim>::Condition::may_jump() const
+  {
+    // components are divided by '|', which is no operator here
+    constexpr std::array<const char *, 11> jumping = {
+      {"if", "rint", "int", "floor", "ceil", "sign", "abs", "min", "max", "rand", "rand_seed"}};
+    return text.empty() || of_plugin || text.find_first_of("<>?=!&%") != std::string::npos ||
+           std::any_of(jumping.begin(), jumping.end(), [&](const char *word) { return mentions(text, word); });
+  }
+
+
+  template <int dim>
+  std::string BoundaryConditions<dim>::Condition::described() const
+  {
+    return "Boundary conditions/" + std::string(of_plugin ? "Plug-ins" : kind->parameter) + ": boundary '" + name + "'";
+  }
+
+
+  template <int dim>
   void BoundaryConditions<dim>::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Boundary conditions");
-    prm.add_parameter("No-slip walls",
-                      no_slip,
-                      "Names of the boundaries on which the fluid sticks: u = 0. Separated by commas. A rectangle's "
-                      "boundaries are left, right, bottom and top; a mesh file's are its physical groups.");
-    prm.add_parameter("Slip walls", slip, "Names of the impermeable boundaries without wall shear: u.n = 0.");
-    prm.add_parameter(
-      "Symmetric",
-      symmetric,
-      "Names of the symmetry lines: u.n = 0 and no shear, in this formulation the same as a slip wall.");
-    prm.add_parameter("Pressure",
-                      pressure,
-                      "Boundaries open to a given pressure [Pa] (with its hydrostatic part), as `name: expression; "
-                      "name: expression`. An "
-                      "expression may use x, y, t "
-                      "and the constants rho (fluid density), g (magnitude of gravity), H (height of the domain), L "
-                      "(height of the bed at "
-                      "t = 0) and pi, for instance `top: 0; bottom: rho*g*H*(1 + t)`.");
-    prm.add_parameter("Velocity",
-                      velocity,
-                      "Boundaries with a given velocity [m/s], as `name: u_x | u_y; ...`, each component an expression "
-                      "as under Pressure.");
+    kinds.create();
+    for (const auto &[name, kind] : kinds.all())
+      {
+        kind->parameter = name;
+        prm.add_parameter(name, boundaries[name], Registry<BoundaryKind<dim>>::entries().at(name).prose);
+        kind->add_parameters(prm);
+      }
     prm.add_parameter(
       "Given velocity",
       given_velocity,
@@ -98,37 +103,39 @@ namespace alluvium::fluid
       "In a box closed all around, fix the pressure at one node (its level is arbitrary there). Where a "
       "boundary has a pressure this does nothing.");
     std::string prose = "Boundaries whose pressure or velocity a plug-in gives, as `name: plug-in; name: plug-in`. ";
-    if (plugins.empty())
-      for (const auto &[name, entry] : Registry<BoundaryPlugin>::entries())
-        plugins.emplace(name, entry.create());
+    plugins.create();
     prose += plugins.empty() ? "None is known; see Additional shared libraries." : "Known are:";
-    for (const auto &[name, plugin] : plugins)
+    for (const auto &[name, plugin] : plugins.all())
       prose += "\n'" + name + "': " + Registry<BoundaryPlugin>::entries().at(name).prose;
     prm.add_parameter("Plug-ins", by_plugins, prose);
-    for (const auto &[name, plugin] : plugins)
-      {
-        prm.enter_subsection("Plug-ins: " + name);
-        plugin->add_parameters(prm);
-        prm.leave_subsection();
-      }
+    plugins.add_parameters(prm, "Plug-ins");
     prm.leave_subsection();
+  }
+
+
+  template <int dim>
+  void BoundaryConditions<dim>::parse_parameters()
+  {
+    for (const auto &[name, list] : boundaries)
+      if (!list.empty())
+        kinds.parse_parameters(name);
+    for (const auto &[boundary, plugin] : plugins_by_boundary())
+      plugins.parse_parameters(plugin);
   }
 
 
   template <int dim>
   std::vector<std::pair<std::string, std::string>> BoundaryConditions<dim>::plugins_by_boundary() const
   {
-    const std::string where = "Boundary conditions/Plug-ins: ";
-    std::string       known;
-    for (const auto &[name, plugin] : plugins)
-      known += (known.empty() ? "" : ", ") + name;
+    const std::string                                where = "Boundary conditions/Plug-ins: ";
+    const std::string                                known = plugins.names(", ");
     std::vector<std::pair<std::string, std::string>> result;
     for (const auto &item : Utilities::split_string_list(by_plugins, ';'))
       {
         const auto colon = item.find(':');
         check_user(colon != std::string::npos, where + "expected `name: plug-in`, got '" + item + "'.");
         const std::string plugin = Utilities::trim(item.substr(colon + 1));
-        check_user(plugins.count(plugin) > 0,
+        check_user(plugins.contains(plugin),
                    where + "there is no boundary condition named '" + plugin + "'; " +
                      (known.empty() ? "none is known. Is its library under 'Additional shared libraries'?"
                                     : "known are: " + known + "."));
@@ -165,34 +172,29 @@ namespace alluvium::fluid
         return parse_expressions(where, components, constants);
       };
 
-    for (const auto &name : Utilities::split_string_list(no_slip))
-      add("No-slip walls", name, {Kind::no_slip, name, nullptr});
-    for (const auto &name : Utilities::split_string_list(slip))
-      add("Slip walls", name, {Kind::slip, name, nullptr});
-    for (const auto &name : Utilities::split_string_list(symmetric))
-      add("Symmetric", name, {Kind::slip, name, nullptr});
-    for (const auto &[parameter, text, kind, n_components] :
-         {std::make_tuple("Pressure", pressure, Kind::pressure, 1u),
-          std::make_tuple("Velocity", velocity, Kind::velocity, 0u + dim)})
-      for (const auto &item : Utilities::split_string_list(text, ';'))
-        {
-          const auto        colon = item.find(':');
-          const std::string where = std::string("Boundary conditions/") + parameter;
-          check_user(colon != std::string::npos, where + ": expected `name: expression`, got '" + item + "'.");
-          const std::string name = Utilities::trim(item.substr(0, colon));
-          const std::string text = Utilities::trim(item.substr(colon + 1));
-          add(parameter,
-              name,
-              {kind, name, parse_function(where + ": boundary '" + name + "'", text, n_components), text});
-        }
+    for (const auto &[parameter, kind] : kinds.all())
+      for (const auto &item : Utilities::split_string_list(boundaries.at(parameter), kind->n_values() == 0 ? ',' : ';'))
+        if (kind->n_values() == 0)
+          add(parameter, item, {kind, item, nullptr});
+        else
+          {
+            const auto        colon = item.find(':');
+            const std::string where = "Boundary conditions/" + parameter;
+            check_user(colon != std::string::npos, where + ": expected `name: expression`, got '" + item + "'.");
+            const std::string name = Utilities::trim(item.substr(0, colon));
+            const std::string text = Utilities::trim(item.substr(colon + 1));
+            add(parameter,
+                name,
+                {kind, name, parse_function(where + ": boundary '" + name + "'", text, kind->n_values()), text});
+          }
 
     for (const auto &[name, plugin_name] : plugins_by_boundary())
       {
-        const auto &plugin = plugins.at(plugin_name);
+        const auto &plugin = plugins.get(plugin_name);
         plugin->initialize(constants);
-        const bool is_pressure = plugin->gives() == BoundaryPlugin::Gives::pressure;
-        Condition  condition{is_pressure ? Kind::pressure : Kind::velocity, name, nullptr, plugin_name};
-        condition.value     = std::make_shared<PluginFunction>(plugin, is_pressure ? 1u : 0u + dim);
+        const auto &kind = kinds.get(plugin->gives() == BoundaryPlugin::Gives::pressure ? "Pressure" : "Velocity");
+        Condition   condition{kind, name, nullptr, plugin_name};
+        condition.value     = std::make_shared<PluginFunction>(plugin, kind->n_values());
         condition.of_plugin = true;
         add("Plug-ins", name, condition);
       }
@@ -200,23 +202,18 @@ namespace alluvium::fluid
     for (const auto &name : Utilities::split_string_list(hydrostatic))
       {
         const auto it = ids.find(name);
-        check_user(it != ids.end() && conditions.count(it->second) && conditions.at(it->second).kind == Kind::pressure,
+        check_user(it != ids.end() && conditions.count(it->second) && conditions.at(it->second).kind->gives_pressure(),
                    "Boundary conditions/Add hydrostatic pressure: '" + name +
                      "' is no boundary with a given pressure.");
         conditions.at(it->second).add_hydrostatic = true;
       }
 
-    bool pressure_is_fixed = pin_pressure;
     for (const auto &[name, id] : ids)
-      {
-        check_user(conditions.count(id) == 1,
-                   "Boundary conditions: boundary '" + name +
-                     "' has none. Name it under 'No-slip walls', 'Slip walls', 'Symmetric', 'Pressure', 'Velocity' or "
-                     "'Plug-ins'.");
-        pressure_is_fixed = pressure_is_fixed || conditions.at(id).kind == Kind::pressure;
-      }
+      check_user(conditions.count(id) == 1,
+                 "Boundary conditions: boundary '" + name + "' has none. Name it under one of " +
+                   kinds.names(", ", true) + ", 'Plug-ins'.");
     check_user(
-      pressure_is_fixed,
+      pin_pressure || fixes_pressure(),
       "Boundary conditions: the pressure is fixed nowhere. Give it on a boundary under 'Pressure', or, in a box closed "
       "all around, set 'Pin pressure = true'.");
     set_time(0.);
@@ -238,19 +235,17 @@ namespace alluvium::fluid
                                         const Point<dim>  &point,
                                         const unsigned int component) const
   {
-    double value = condition.value->value(point, component);
-    if (!std::isfinite(value))
+    double     value     = condition.value->value(point, component);
+    const bool is_finite = std::isfinite(value);
+    if (!is_finite || !condition.kind->allows(component, value))
       {
         std::ostringstream text;
-        text << "Boundary conditions/"
-             << (condition.of_plugin                ? "Plug-ins"
-                 : condition.kind == Kind::pressure ? "Pressure"
-                                                    : "Velocity")
-             << ": boundary '" << condition.name << "': '" << condition.text << "' is " << value
-             << " at x = " << point[0] << ", y = " << point[1] << ", t = " << time << "; expected a finite number.";
+        text << condition.described() << ": '" << condition.text << "' is " << value << " at x = " << point[0]
+             << ", y = " << point[1] << ", t = " << time << "; expected "
+             << (is_finite ? condition.kind->expected() : "a finite number") << '.';
         throw UserError(text.str());
       }
-    if (condition.add_hydrostatic)
+    if (condition.add_hydrostatic && component == 0)
       value += hydrostatic_gradient * (point - hydrostatic_origin);
     return value;
   }
@@ -261,16 +256,27 @@ namespace alluvium::fluid
   {
     return std::any_of(conditions.begin(), conditions.end(), [](const auto &entry) {
       const Condition &c = entry.second;
-      return c.kind == Kind::velocity && c.may_depend_on("t");
+      return c.kind->velocity() == BoundaryKind<dim>::Velocity::given && c.may_depend_on("t");
     });
   }
 
 
   template <int dim>
-  bool BoundaryConditions<dim>::has_pressure() const
+  bool BoundaryConditions<dim>::terms_depend_on_time() const
+  {
+    return std::any_of(conditions.begin(), conditions.end(), [](const auto &entry) {
+      const Condition &c = entry.second;
+      return c.value && c.kind->has_terms() && !c.kind->gives_pressure() &&
+             c.kind->velocity() != BoundaryKind<dim>::Velocity::given && c.may_depend_on("t");
+    });
+  }
+
+
+  template <int dim>
+  bool BoundaryConditions<dim>::fixes_pressure() const
   {
     return std::any_of(
-      conditions.begin(), conditions.end(), [](const auto &entry) { return entry.second.kind == Kind::pressure; });
+      conditions.begin(), conditions.end(), [](const auto &entry) { return entry.second.kind->fixes_pressure(); });
   }
 
 

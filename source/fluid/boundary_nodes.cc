@@ -135,31 +135,30 @@ namespace alluvium::fluid
               const double length = end[0].distance(end[1]);
               for (const auto &part : values.divide_face(id, end[0], end[1]))
                 {
-                  const auto &condition = boundary_conditions.all().at(part.id);
+                  const BoundaryKind<dim> &kind       = *boundary_conditions.all().at(part.id).kind;
+                  const bool               has_inflow = kind.velocity() == Velocity::given,
+                             has_terms = (kind.gives_pressure() || kind.has_terms()) && cell->is_locally_owned();
                   for (unsigned int e = 0; e < 2; ++e)
                     {
-                      const bool touches  = e == 0 ? part.has_first() : part.has_second();
-                      const bool velocity = condition.kind == Kind::velocity;
-                      const auto index    = cell_nodes[vertex[e]];
-                      Node      &node     = nodes[index];
+                      const bool touches = e == 0 ? part.has_first() : part.has_second();
+                      const auto index   = cell_nodes[vertex[e]];
+                      Node      &node    = nodes[index];
                       for (unsigned int c = 0; c <= dim; ++c)
                         node.dof[c] = cell_dofs[system_fe.component_to_system_index(c, vertex[e])];
                       node.point = end[e];
-                      node.faces.push_back({part.id,
-                                            condition.kind,
-                                            normal,
-                                            0.5 * length * (part.end - part.begin),
-                                            touches,
-                                            part.is_whole()});
-                      if (touches || velocity)
-                        node.kinds.emplace(condition.kind, part.id);
+                      node.faces.push_back(
+                        {part.id, &kind, normal, 0.5 * length * (part.end - part.begin), touches, part.is_whole()});
+                      if (touches || kind.velocity() == Velocity::given)
+                        node.velocities.emplace(kind.velocity(), part.id);
+                      if (touches && kind.gives_pressure() && !node.pressure)
+                        node.pressure = part.id;
                       if (touches)
                         on_boundary[part.id].insert(index);
                     }
-                  if (condition.kind != Kind::velocity && condition.kind != Kind::pressure)
+                  if (!has_inflow && !has_terms)
                     continue;
                   const PartValues<dim> values(face_values, part, vertex);
-                  if (condition.kind == Kind::velocity)
+                  if (has_inflow)
                     {
                       InflowFace<dim> face{cell->is_locally_owned(),
                                            my_index,
@@ -176,17 +175,20 @@ namespace alluvium::fluid
                         face.normal_jxw.push_back(normal * w);
                       inflow.push_back(face);
                     }
-                  if (condition.kind == Kind::pressure && cell->is_locally_owned())
+                  if (has_terms)
                     {
                       // half a quadrilateral's; of triangles those that touch with a corner add as much as this one
                       const double depth = (n_nodes == dim + 1 ? 1. : 0.5) * cell->measure() / length;
-                      open.push_back({my_index,
-                                      part.id,
-                                      depth,
-                                      values.phi,
-                                      values.grad,
-                                      std::vector<Tensor<1, dim>>(quadrature.size(), normal),
-                                      values.jxw});
+                      faces.push_back({my_index,
+                                       part.id,
+                                       depth,
+                                       values.phi,
+                                       values.grad,
+                                       std::vector<Tensor<1, dim>>(quadrature.size(), normal),
+                                       values.jxw,
+                                       {}});
+                      for (const auto &phi : values.phi)
+                        faces.back().point.push_back(Point<dim>(phi[vertex[0]] * end[0] + phi[vertex[1]] * end[1]));
                     }
                 }
             }
@@ -195,11 +197,11 @@ namespace alluvium::fluid
 
 
   template <int dim>
-  std::vector<Tensor<1, dim>> BoundaryNodes<dim>::Node::normals_of(const Kind kind) const
+  std::vector<Tensor<1, dim>> BoundaryNodes<dim>::Node::normals_of(const Velocity velocity) const
   {
     std::vector<Tensor<1, dim>> result;
     for (const auto &face : faces)
-      if (face.kind == kind && face.touches)
+      if (face.kind->velocity() == velocity && face.touches)
         result.push_back(face.normal);
     return result;
   }
@@ -208,14 +210,14 @@ namespace alluvium::fluid
   template <int dim>
   const typename BoundaryNodes<dim>::HalfFace *BoundaryNodes<dim>::Node::inflow() const
   {
-    const auto it = kinds.find(Kind::velocity);
-    if (it == kinds.end())
+    const auto it = velocities.find(Velocity::given);
+    if (it == velocities.end())
       return nullptr;
     const auto face = std::find_if(faces.begin(), faces.end(), [&](const auto &f) { return f.boundary == it->second; });
     // beside a slot that ends before the node, flow through an open boundary is free; at corners walls win
-    if (!face->touches && kinds.count(Kind::pressure) > 0)
+    if (!face->touches && pressure)
       return nullptr;
-    for (const auto &normal : normals_of(Kind::no_slip))
+    for (const auto &normal : normals_of(Velocity::zero))
       if (!in_line(normal, face->normal))
         return nullptr;
     return &*face;
@@ -239,15 +241,15 @@ namespace alluvium::fluid
           fix(n, component);
           prescribed.push_back({n.dof[component], id, component, n.point});
         };
-        if (const auto it = node.kinds.find(Kind::pressure); it != node.kinds.end())
-          prescribe(dim, it->second);
+        if (node.pressure)
+          prescribe(dim, *node.pressure);
         if (const auto *inflow = node.inflow())
           for (unsigned int c = 0; c < dim; ++c)
             prescribe(c, inflow->boundary);
-        else if (node.kinds.count(Kind::no_slip))
+        else if (node.velocities.count(Velocity::zero))
           for (unsigned int c = 0; c < dim; ++c)
             fix(node, c);
-        else if (const auto normals = node.normals_of(Kind::slip); !normals.empty())
+        else if (const auto normals = node.normals_of(Velocity::no_flow_through); !normals.empty())
           constrain_slip<dim>(normals, node.dof, constraints);
       }
     return prescribed;
@@ -259,7 +261,7 @@ namespace alluvium::fluid
   {
     double mine = 0., all = 0.;
     for (const auto &face : nodes.at(node).faces)
-      if (face.kind == Kind::pressure && face.touches)
+      if (face.kind->gives_pressure() && face.touches)
         {
           all += face.length;
           if (face.boundary == id)

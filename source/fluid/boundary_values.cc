@@ -23,12 +23,12 @@ namespace alluvium::fluid
   {
     dofs = &fluid_dofs;
     const BoundaryNodes<dim> boundary(fluid_dofs, *this, boundary_conditions);
-    inflow    = boundary.inflow;
-    inflow_at = boundary.inflow_nodes();
-    open      = boundary.open;
+    inflow         = boundary.inflow;
+    inflow_at      = boundary.inflow_nodes();
+    boundary_faces = boundary.faces;
     open_ids.clear();
     for (const auto &[id, condition] : boundary_conditions.all())
-      if (condition.kind == BoundaryConditions<dim>::Kind::pressure)
+      if (condition.kind->gives_pressure())
         open_ids.push_back(id);
     all_constraints.clear();
     all_constraints.reinit(fluid_dofs.relevant_dofs());
@@ -58,7 +58,7 @@ namespace alluvium::fluid
         for (const auto index : nodes.nodes_of(id))
           if (dofs->nodal_partitioner().in_local_range(index))
             weight(index) = nodes.share(index, id);
-        check_user(condition.kind != BoundaryConditions<dim>::Kind::pressure || weight.linfty_norm() > 0.,
+        check_user(!condition.kind->gives_pressure() || weight.linfty_norm() > 0.,
                    "Boundary conditions/Pressure: no node of the fluid's mesh lies on '" + condition.name +
                      "': it is narrower than a cell there. Make the cells smaller, or give a velocity, whose flux is "
                      "exact on cells of any size.");

@@ -108,7 +108,7 @@ namespace alluvium::fluid
         double p2 = 0., u2 = 0.;
         for (unsigned int d = 0; d < dim; ++d)
           {
-            p2 += grad_p[d] * grad_p[d];
+            p2 += grad_p[d] * grad_p[d] + e * e * state.problem.drive[d] * state.problem.drive[d];
             u2 += flux[d] * flux[d];
           }
         momentum += p2 * state.cell->jxw[q] * state.cell->measure;

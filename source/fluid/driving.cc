@@ -13,6 +13,12 @@ namespace alluvium::fluid
 {
   using namespace dealii;
 
+  namespace
+  {
+    const std::string force_name = "Fluid/Body force", gradient_name = "Fluid/Mean pressure gradient";
+  }
+
+
   template <int dim>
   void Driving<dim>::add_parameters(ParameterHandler &prm)
   {
@@ -54,12 +60,12 @@ namespace alluvium::fluid
                    where + ": '" + component + "' must not depend on place.");
       return parse_expressions(where, components, constants);
     };
-    force_function        = parse("Fluid/Body force", force_text);
-    gradient_function     = parse("Fluid/Mean pressure gradient", gradient_text);
+    force_function        = parse(force_name, force_text);
+    gradient_function     = parse(gradient_name, gradient_text);
     const auto components = Utilities::split_string_list(gradient_text, '|');
     for (unsigned int d = 0; d < dim; ++d)
       check_user(periodic_length[d] > 0. || is_zero(components[d]),
-                 std::string("Fluid/Mean pressure gradient: ") + "xy"[d] +
+                 gradient_name + ": " + "xy"[d] +
                    " is no periodic direction: pressures on boundaries, or Fluid/Body force, drive the flow there.");
     set_time(0.);
   }
@@ -76,33 +82,32 @@ namespace alluvium::fluid
       {
         force[d]    = force_function->value({}, d);
         gradient[d] = gradient_function->value({}, d);
-        check_user(
-          std::isfinite(force[d]) && std::isfinite(gradient[d]),
-          std::string("Fluid/") +
-            (std::isfinite(force[d]) ? "Mean pressure gradient: '" + gradient_text : "Body force: '" + force_text) +
-            "' is not finite at t = " + in_digits(time) + " s.");
+        check_user(std::isfinite(force[d]) && std::isfinite(gradient[d]),
+                   (std::isfinite(force[d]) ? gradient_name + ": '" + gradient_text : force_name + ": '" + force_text) +
+                     "' is not finite at t = " + in_digits(time) + " s.");
       }
   }
 
 
   template <int dim>
-  std::vector<std::function<double(double)>> Driving<dim>::functions_of_time() const
+  std::vector<FunctionOfTime> Driving<dim>::functions_of_time() const
   {
-    std::vector<std::function<double(double)>> result;
-    const auto add = [&](const std::string &text, const std::shared_ptr<Function<dim>> &function) {
-      if (!function || !mentions(text, "t"))
-        return;
-      for (unsigned int d = 0; d < dim; ++d)
-        result.push_back([function, d](const double t) {
-          const double now = function->get_time();
-          function->set_time(t);
-          const double value = function->value({}, d);
-          function->set_time(now);
-          return value;
-        });
-    };
-    add(force_text, force_function);
-    add(gradient_text, gradient_function);
+    std::vector<FunctionOfTime> result;
+    const auto                  add =
+      [&](const std::string &parameter, const std::string &text, const std::shared_ptr<Function<dim>> &function) {
+        if (!function || !mentions(text, "t"))
+          return;
+        for (unsigned int d = 0; d < dim; ++d)
+          result.push_back({parameter, text, [function, d](const double t) {
+                              const double now = function->get_time();
+                              function->set_time(t);
+                              const double value = function->value({}, d);
+                              function->set_time(now);
+                              return value;
+                            }});
+      };
+    add(force_name, force_text, force_function);
+    add(gradient_name, gradient_text, gradient_function);
     return result;
   }
 

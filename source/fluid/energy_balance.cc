@@ -2,7 +2,8 @@
 #include <alluvium/fluid/cell_order.h>
 #include <alluvium/fluid/cell_piece_terms.h>
 #include <alluvium/fluid/energy_balance.h>
-#include <alluvium/fluid/open_boundary_terms.h>
+#include <alluvium/fluid/face_state.h>
+#include <alluvium/fluid/open_boundary_flow.h>
 #include <alluvium/fluid/piece_gradients.h>
 
 #include <deal.II/base/mpi.h>
@@ -18,8 +19,8 @@ namespace alluvium::fluid
 
   namespace
   {
-    template <int dim, int n>
-    double product(const LocalVector<dim, n> &x, const LocalMatrix<dim, n> &L, const LocalVector<dim, n> &b)
+    template <int dim, int n, typename Matrix, typename Vector>
+    double product(const LocalVector<dim, n> &x, const Matrix &L, const Vector &b)
     {
       double sum = 0.;
       for (unsigned int r = 0; r < x.size(); ++r)
@@ -142,16 +143,14 @@ namespace alluvium::fluid
     }
 
     template <int dim, int n>
-    void add_open(const CellState<dim, n>   &state,
-                  const OpenFace<dim>       &face,
+    void add_face(const CellState<dim, n>   &state,
+                  const BoundaryFace<dim>   &face,
                   const double               backflow,
                   const LocalVector<dim, n> &x,
                   EnergyBalance             &sum)
     {
-      LocalMatrix<dim, n> L{};
-      LocalVector<dim, n> b{};
-      add_open_face(state, face, backflow, L, b);
-      const double taken = product<dim, n>(x, L, b);
+      const auto   terms = face_terms(state, face, backflow);
+      const double taken = product<dim, n>(x, terms.matrix, terms.known);
       sum.open += taken;
       sum.boundaries += taken;
     }
@@ -238,11 +237,11 @@ namespace alluvium::fluid
           state.reinit(i);
           add_cell(state, state.values(solution), sum);
         }
-      const auto backflow = backflow_shares(space, problem);
-      for (const auto &face : space.boundary().open_faces())
+      auto backflow = backflow_shares(space, problem);
+      for (const auto &face : space.boundary().faces())
         {
           state.reinit(face.cell);
-          add_open(state, face, backflow.at(face.boundary), state.values(solution), sum);
+          add_face(state, face, backflow[face.boundary], state.values(solution), sum);
         }
       if (problem.discretisation.convection)
         sum.boundaries -= carried_out(state, solution);

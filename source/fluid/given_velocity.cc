@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <string>
 
 namespace alluvium::fluid
 {
@@ -13,22 +11,9 @@ namespace alluvium::fluid
 
   namespace
   {
-    constexpr const char *jumping[] = {"if", "rint", "int", "floor", "ceil", "sign", "abs", "min", "max", "rand"};
-
     // a formula is looked at in each of so many pieces of a face: more where it may jump, for narrow slots
     constexpr unsigned int n_pieces_of_smooth = 16, n_pieces_of_others = 256;
     constexpr unsigned int max_depth = 40;
-
-    /** May the value have jumps? A formula says so (its components are divided by '|'), others may. */
-    template <typename Condition>
-    bool may_jump(const Condition &condition)
-    {
-      const std::string &text = condition.text;
-      return text.empty() || condition.of_plugin || text.find_first_of("<>?=!&%") != std::string::npos ||
-             std::any_of(std::begin(jumping), std::end(jumping), [&](const char *word) {
-               return text.find(word) != std::string::npos;
-             });
-    }
 
     // fluid is not made faster than this where grains take nearly all room
     constexpr double least_void_fraction = 0.1;
@@ -125,7 +110,7 @@ namespace alluvium::fluid
           return velocity_at(condition, Point<dim>((1. - s) * face.end[0] + s * face.end[1]));
         };
         Moments m = integrate_part<dim>(
-          velocity, face.from, face.to, may_jump(condition) ? n_pieces_of_others : n_pieces_of_smooth);
+          velocity, face.from, face.to, condition.may_jump() ? n_pieces_of_others : n_pieces_of_smooth);
         for (auto &moment : m)
           moment *= face.length();
         moments.push_back(m);
@@ -186,7 +171,7 @@ namespace alluvium::fluid
   {
     std::map<types::boundary_id, double> result;
     for (const auto &[id, condition] : conditions.all())
-      if (condition.kind == BoundaryConditions<dim>::Kind::velocity)
+      if (condition.kind->velocity() == BoundaryKind<dim>::Velocity::given)
         result[id] = 0.;
     const auto &faces = space.boundary().inflow_faces();
     for (std::size_t i = 0; i < fluxes.size(); ++i)

@@ -1,6 +1,7 @@
 #include <alluvium/fluid/cell_mesh_terms.h>
 #include <alluvium/fluid/cell_piece_terms.h>
-#include <alluvium/fluid/open_boundary_terms.h>
+#include <alluvium/fluid/face_state.h>
+#include <alluvium/fluid/open_boundary_flow.h>
 #include <alluvium/fluid/vans_assembler.h>
 
 #include <deal.II/base/utilities.h>
@@ -132,24 +133,21 @@ namespace alluvium::fluid
           if (state.has_pieces())
             constraints.distribute_local_to_global(local_known, local_dofs, known);
         }
-      const auto backflow = backflow_shares(*space, problem);
-      for (const auto &face : space->boundary().open_faces())
+      auto backflow = backflow_shares(*space, problem);
+      for (const auto &face : space->boundary().faces())
         {
           const CellData<dim> &cell = space->cells()[face.cell];
           state.reinit(face.cell);
-          for (auto &row : L)
-            row.fill(0.);
-          b.fill(0.);
-          add_open_face(state, face, backflow.at(face.boundary), L, b);
-          const typename K::Values x = state.values(iterate);
+          const FaceTerms<dim>     terms = face_terms(state, face, backflow[face.boundary]);
+          const typename K::Values x     = state.values(iterate);
           for (unsigned int r = 0; r < n; ++r)
             {
-              local_residual(r) = b[r];
+              local_residual(r) = terms.known[r];
               local_dofs[r]     = cell.dofs[r];
               for (unsigned int c = 0; c < n; ++c)
                 {
-                  local_matrix(r, c) = L[r][c];
-                  local_residual(r) -= L[r][c] * x[c];
+                  local_matrix(r, c) = terms.matrix[r][c];
+                  local_residual(r) -= terms.matrix[r][c] * x[c];
                 }
             }
           constraints.distribute_local_to_global(local_matrix, local_dofs, system_matrix);
@@ -211,13 +209,41 @@ namespace alluvium::fluid
                                   const BlockVector       &solution,
                                   const types::boundary_id id) const
   {
-    double sum = 0.;
+    const auto passes_by_terms = [&](const types::boundary_id boundary) {
+      return problem.boundary_conditions && problem.boundary_conditions->all().at(boundary).kind->has_mass_terms();
+    };
+    const auto &weights = space->boundary().weights_at(id);
+    const auto  own     = passes_by_terms(id);
+    double      sum     = 0.;
     with_cell_state<dim>(*space, problem, [&](auto state) {
       using K                  = decltype(state);
       constexpr unsigned int n = K::n_local;
       typename K::Matrix     L;
       typename K::Values     b;
-      for (const auto &[i, weight] : space->boundary().weights_at(id))
+      // what passes by terms is what the continuity equation gets of them, here or close by
+      for (const auto &face : space->boundary().faces())
+        {
+          if (!passes_by_terms(face.boundary))
+            continue;
+          const auto w = std::lower_bound(
+            weights.begin(), weights.end(), face.cell, [](const auto &w, const unsigned int c) { return w.cell < c; });
+          if (own ? face.boundary != id : w == weights.end() || w->cell != face.cell)
+            continue;
+          state.reinit(face.cell);
+          const FaceTerms<dim>     terms = face_terms(state, face, 0.);
+          const typename K::Values x     = state.values(solution);
+          for (unsigned int v = 0; v < n / (dim + 1); ++v)
+            {
+              const unsigned int row = FaceTerms<dim>::row(v, dim);
+              double             out = -terms.known[row];
+              for (unsigned int c = 0; c < n; ++c)
+                out += terms.matrix[row][c] * x[c];
+              sum += own ? out : -w->weight[v] * out;
+            }
+        }
+      if (own)
+        return;
+      for (const auto &[i, weight] : weights)
         {
           state.reinit(i);
           fill_matrix(state, L);
@@ -236,8 +262,7 @@ namespace alluvium::fluid
         }
     });
     // what comes in where the velocity is given close by
-    const auto &weights = space->boundary().weights_at(id);
-    for (std::size_t i = 0; problem.given_fluxes && i < space->boundary().inflow_faces().size(); ++i)
+    for (std::size_t i = 0; !own && problem.given_fluxes && i < space->boundary().inflow_faces().size(); ++i)
       {
         const InflowFace<dim> &face = space->boundary().inflow_faces()[i];
         const auto             w    = std::lower_bound(

@@ -39,7 +39,7 @@ namespace alluvium::geometry
                   -2. * right * b.first,
                   0.};
         }
-      if constexpr (weight == DiscWeight::even)
+      if constexpr (weight == DiscWeight::top_hat)
         return {a.t * b.t + a.zeroth + b.zeroth + pi / 4,
                 b.t * (0.5 * (aa - 1.) + bb * (1. / 6)) - a.first,
                 a.t * (0.5 * (bb - 1.) + aa * (1. / 6)) - b.first,
@@ -90,7 +90,7 @@ namespace alluvium::geometry
         const double s2 = (1. - line.t) * (1. + line.t), s = std::sqrt(s2), third = s * s2 * (1. / 3);
         line.zeroth = 0.5 * (line.t * s + std::asin(line.t));
         line.first  = third;
-        if (weight == DiscWeight::smooth)
+        if (weight == DiscWeight::parabolic)
           {
             line.zeroth += line.t * third;
             line.first = 0.8 * s2 * third;
@@ -102,10 +102,10 @@ namespace alluvium::geometry
 
   void GridCutter::cut(const Disc &disc, const std::vector<std::uint8_t> &wanted, std::vector<GridPiece> &pieces)
   {
-    if (weight == DiscWeight::even)
-      cut_with<DiscWeight::even>(disc, wanted, pieces);
+    if (weight == DiscWeight::top_hat)
+      cut_with<DiscWeight::top_hat>(disc, wanted, pieces);
     else
-      cut_with<DiscWeight::smooth>(disc, wanted, pieces);
+      cut_with<DiscWeight::parabolic>(disc, wanted, pieces);
   }
 
 
@@ -128,7 +128,7 @@ namespace alluvium::geometry
       const double far_x = std::max(-x0.t, x1.t), far_y = std::max(-y0.t, y1.t);
       if (far_x * far_x + far_y * far_y < 1.)
         {
-          if constexpr (weight == DiscWeight::even)
+          if constexpr (weight == DiscWeight::top_hat)
             pieces.push_back({c, (*polygons)[c].area, 0.5, 0.5, 0.25});
           else
             {
@@ -150,7 +150,7 @@ namespace alluvium::geometry
 
       GridPiece piece{c, m.area * (r * r), 0., 0., 0.};
       // even: means good to 1e-11 of the cell
-      if (m.area > (weight == DiscWeight::even ? 3e-5 * std::max({0.03, ax, ay}) : 1e-13))
+      if (m.area > (weight == DiscWeight::top_hat ? 3e-5 * std::max({0.03, ax, ay}) : 1e-13))
         {
           const double gx = m.x / m.area, gy = m.y / m.area;
           set_means(piece,
@@ -160,7 +160,7 @@ namespace alluvium::geometry
         }
       else
         {
-          if constexpr (weight == DiscWeight::smooth)
+          if constexpr (weight == DiscWeight::parabolic)
             return;
           const Overlap o = overlap(disc, (*polygons)[c]);
           if (!(o.area > 0.))

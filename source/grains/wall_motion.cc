@@ -72,7 +72,7 @@ namespace alluvium::grains
       if (!phase.at_time)
         return !is_zero(phase.velocity);
       for (unsigned int s = 0; s <= n_samples; ++s)
-        if (!is_zero(phase.at_time(std::max(t, phase.from) + double(s) / n_samples * part * h)))
+        if (!is_zero(phase.at_time(std::min(phase.to, std::max(t, phase.from) + double(s) / n_samples * part * h))))
           return true;
       return false;
     });

@@ -25,7 +25,7 @@ namespace alluvium::mesh
     class Bisection
     {
     public:
-      Bisection(const std::vector<CellToDeal> &cells)
+      Bisection(const std::vector<BisectedCell> &cells)
         : part(cells.size())
         , cells(cells)
       {}
@@ -95,12 +95,12 @@ namespace alluvium::mesh
         return best;
       }
 
-      const std::vector<CellToDeal> &cells;
+      const std::vector<BisectedCell> &cells;
     };
   } // namespace
 
 
-  std::vector<types::subdomain_id> bisect(const std::vector<CellToDeal> &cells, const unsigned int n_parts)
+  std::vector<types::subdomain_id> bisect(const std::vector<BisectedCell> &cells, const unsigned int n_parts)
   {
     std::vector<unsigned int> order(cells.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -112,7 +112,7 @@ namespace alluvium::mesh
 
   void partition_by_bisection(parallel::shared::Triangulation<2> &triangulation, const CellWeights &weights)
   {
-    std::vector<CellToDeal> cells;
+    std::vector<BisectedCell> cells;
     for (const auto &cell : triangulation.active_cell_iterators())
       cells.push_back({cell->center(), weights.n_near(box_of(cell))});
     const auto  part = bisect(cells, Utilities::MPI::n_mpi_processes(triangulation.get_communicator()));

@@ -5,6 +5,7 @@
 #include <alluvium/mesh/straight_sides.h>
 #include <alluvium/utilities/digits.h>
 #include <alluvium/utilities/input_files.h>
+#include <alluvium/utilities/magnitudes.h>
 #include <alluvium/utilities/text_file.h>
 #include <alluvium/utilities/user_error.h>
 
@@ -194,6 +195,14 @@ namespace alluvium::mesh
                      "Domain: the upper right corner must be above and to the right of the lower left one; in " +
                        std::string(d == 0 ? "x" : "y") + " they are at " + in_digits(lower_corner[d]) + " and " +
                        in_digits(upper_corner[d]) + " m.");
+        using namespace magnitudes;
+        for (unsigned int d = 0; d < dim; ++d)
+          check_user(std::abs(lower_corner[d]) <= largest_length && std::abs(upper_corner[d]) <= largest_length &&
+                       upper_corner[d] - lower_corner[d] >= smallest_length,
+                     std::string("Domain: in ") + (d == 0 ? "x" : "y") + " it reaches from " +
+                       in_digits(lower_corner[d]) + " to " + in_digits(upper_corner[d]) +
+                       " m; expected corners no farther than " + in_digits(largest_length) +
+                       " m from 0, and sides of at least " + in_digits(smallest_length) + " m.");
         ids             = {{"left", 0}, {"right", 1}, {"bottom", 2}, {"top", 3}}; // deal.II's colours of a rectangle
         const double x0 = lower_corner[0], y0 = lower_corner[1], x1 = upper_corner[0], y1 = upper_corner[1];
         wall_segments = {{{{x0, y1}}, {{x0, y0}}, {{0., 0.}}, "left"},
@@ -383,25 +392,34 @@ namespace alluvium::mesh
 
 
   template <int dim>
-  void Domain<dim>::make_rectangle(Triangulation<dim> &triangulation, const double cell_size) const
+  std::array<double, dim> Domain<dim>::n_cells_of_rectangle(const double cell_size) const
   {
     check_user(cell_size > 0.,
                "Domain: without grains, 'Coarse cell size' must say how large the cells of the mesh are.");
-    double                    side = std::numeric_limits<double>::max();
-    std::vector<unsigned int> n(dim);
+    double                  side = std::numeric_limits<double>::max();
+    std::array<double, dim> n;
     for (unsigned int d = 0; d < dim; ++d)
       {
         const double length = upper_corner[d] - lower_corner[d];
-        const double cells  = std::max(1., std::ceil(length / cell_size * (1. - 1e-10)));
-        check_user(cells < 1e5,
-                   "Domain: cells of " + in_digits(cell_size) + " m are too small for a domain of " +
-                     in_digits(length) + " m.");
-        side = std::min(side, length / cells);
+        side                = std::min(side, length / std::max(1., std::ceil(length / cell_size * (1. - 1e-10))));
       }
     for (unsigned int d = 0; d < dim; ++d)
       // halves are rounded up, whatever the last digits of a shifted domain say
       n[d] = std::max(1., std::round((upper_corner[d] - lower_corner[d]) / side + 1e-9));
-    GridGenerator::subdivided_hyper_rectangle(triangulation, n, lower_corner, upper_corner, true);
+    return n;
+  }
+
+
+  template <int dim>
+  void Domain<dim>::make_rectangle(Triangulation<dim> &triangulation, const double cell_size) const
+  {
+    const std::array<double, dim> n = n_cells_of_rectangle(cell_size);
+    for (unsigned int d = 0; d < dim; ++d)
+      check_user(n[d] < 1e5,
+                 "Domain: cells of " + in_digits((upper_corner[d] - lower_corner[d]) / n[d]) +
+                   " m are too small for a domain of " + in_digits(upper_corner[d] - lower_corner[d]) + " m.");
+    GridGenerator::subdivided_hyper_rectangle(
+      triangulation, std::vector<unsigned int>(n.begin(), n.end()), lower_corner, upper_corner, true);
   }
 
 

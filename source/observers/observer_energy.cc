@@ -64,6 +64,11 @@ namespace alluvium::observers
           summary.set("energy/" + std::string(names[i]) + "_J_per_m", work[i]);
         if (gross > 0.)
           summary.set("energy/unexplained_gain_over_exchanged", from_nowhere / gross);
+        constexpr double allowed = 0.5;
+        if (from_nowhere > allowed * gross)
+          summary.warn("More than half of the energy that the fluid exchanged is not explained by its balance (see "
+                       "energy/unexplained_gain_over_exchanged): cells are too coarse for the grains or the flow in "
+                       "them, or stabilisation is as large as what drives the flow. Try a smaller cell size.");
       }
 
       void save(nlohmann::ordered_json &state) const override
@@ -100,6 +105,7 @@ namespace alluvium::observers
     Energy,
     "energy",
     "The fluid's energy balance: kinetic energy, and the powers that boundaries, grains, drag, "
-    "viscosity, stabilisation, time steps and open boundaries give it, and what is left "
+    "viscosity, stabilisation, time steps and terms of boundaries (open ones, walls with a slip length) give it, and "
+    "what is left "
     "unexplained. Costs about an assembly a step.")
 } // namespace alluvium::observers

@@ -86,8 +86,8 @@ namespace alluvium::output
       std::error_code ignored;
       for (const auto &entry : fs::directory_iterator(folder))
         if (is_of_a_run(entry))
-          for (const std::string &input : noted_inputs())
-            if (fs::equivalent(entry.path(), input, ignored))
+          for (const InputFile &input : noted_inputs())
+            if (fs::equivalent(entry.path(), input.path, ignored))
               return entry.path().filename().string();
       return "";
     }

@@ -72,6 +72,16 @@ namespace alluvium::refinement
 
 
   template <int dim>
+  void Adaptivity<dim>::parse_parameters()
+  {
+    check_user(finest <= coarsest,
+               "Mesh refinement: 'Finest cell size' = " + in_digits(finest) +
+                 " is larger than 'Coarsest cell size' = " + in_digits(coarsest) + ", in mean grain diameters.");
+    criteria.parse_parameters();
+  }
+
+
+  template <int dim>
   double Adaptivity<dim>::coarse_size(const RefinementContext &context) const
   {
     if (!(context.grain_diameter > 0.))
@@ -113,6 +123,26 @@ namespace alluvium::refinement
 
 
   template <int dim>
+  std::string Adaptivity<dim>::remark_on_limits(const RefinementContext &context) const
+  {
+    for (const RefinementCriterion *criterion : criteria.all())
+      if (const double d = context.grain_diameter; d > 0. && tolerance * criterion->coarsest_size(context) < finest * d)
+        return "Mesh refinement/Criteria ask for cells of " + in_digits(criterion->coarsest_size(context) / d) +
+               " mean grain diameters, but 'Finest cell size' is " + in_digits(finest) + ": no smaller ones are made";
+    return "";
+  }
+
+
+  template <int dim>
+  void Adaptivity<dim>::check_until(const double end_time, const RefinementContext &context) const
+  {
+    for (RefinementCriterion *criterion : criteria.all())
+      if (interval > 0)
+        criterion->check_until(end_time, context);
+  }
+
+
+  template <int dim>
   bool Adaptivity<dim>::needs_fluid() const
   {
     for (const RefinementCriterion *criterion : criteria.all())
@@ -125,14 +155,74 @@ namespace alluvium::refinement
   template <int dim>
   void Adaptivity<dim>::check_mesh(const Triangulation<dim> &triangulation) const
   {
-    check_user(finest <= coarsest,
-               "Mesh refinement: 'Finest cell size' = " + in_digits(finest) +
-                 " is larger than 'Coarsest cell size' = " + in_digits(coarsest) + ", in mean grain diameters.");
     check_user(
       interval == 0 || triangulation.all_reference_cells_are_hyper_cube(),
       "Mesh refinement/Interval: a mesh of triangles cannot be adapted (deal.II refines quadrilaterals in parallel). "
       "Set 'Interval = 0' to use the triangles as they are, or give a mesh of quadrilaterals "
       "(`Recombine Surface` in gmsh).");
+  }
+
+
+  template <int dim>
+  double Adaptivity<dim>::expected_cells(std::vector<CellCorners<dim>> cells,
+                                         double                        weight,
+                                         const RefinementContext      &context) const
+  {
+    constexpr std::size_t most = 5000; // to look at, in a level
+    for (RefinementCriterion *criterion : criteria.all())
+      criterion->prepare(context);
+    // of a list, evenly chosen ones that stand for the others, too
+    const auto thin_out = [&](const std::vector<CellCorners<dim>> &all) {
+      const std::size_t             n = std::min(all.size(), most);
+      std::vector<CellCorners<dim>> some;
+      for (std::size_t i = 0; i < n; ++i)
+        some.push_back(all[static_cast<std::size_t>((i + 0.5) * all.size() / n)]);
+      if (n > 0)
+        weight *= double(all.size()) / n;
+      return some;
+    };
+    double n = 0.;
+    cells    = thin_out(cells);
+    for (unsigned int level = 0; !cells.empty(); ++level)
+      {
+        std::vector<CellCorners<dim>> next;
+        for (const CellCorners<dim> &cell : cells)
+          {
+            const double size = std::max(cell[0].distance(cell[3]), cell[1].distance(cell[2])) / std::sqrt(double(dim));
+            mesh::Box    box;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                box.lower[d] = std::min({cell[0][d], cell[1][d], cell[2][d], cell[3][d]});
+                box.upper[d] = std::max({cell[0][d], cell[1][d], cell[2][d], cell[3][d]});
+              }
+            if (level == max_levels || size <= tolerance * wanted_size(box, context, Purpose::refine))
+              {
+                n += weight;
+                continue;
+              }
+            const auto at = [&](const double x, const double y) {
+              return Point<dim>((1. - y) * ((1. - x) * cell[0] + x * cell[1]) + y * ((1. - x) * cell[2] + x * cell[3]));
+            };
+            for (const double y : {0., 0.5})
+              for (const double x : {0., 0.5})
+                next.push_back({{at(x, y), at(x + 0.5, y), at(x, y + 0.5), at(x + 0.5, y + 0.5)}});
+          }
+        cells = thin_out(next);
+      }
+    return n;
+  }
+
+
+  template <int dim>
+  void Adaptivity<dim>::check_number(const double n_cells) const
+  {
+    constexpr double   error = 0.2;
+    std::ostringstream text;
+    text.precision(2);
+    text << "Mesh refinement: the criteria ask for about " << n_cells;
+    text.precision(6);
+    text << " cells, and 'Max cells' is " << max_cells << ". Ask for larger cells or allow more.";
+    check_user(n_cells <= (1. + error) * max_cells, text.str());
   }
 
 
@@ -150,6 +240,14 @@ namespace alluvium::refinement
                                                       const RefinementContext &context) const
   {
     check_mesh(triangulation);
+    if (dynamic_cast<const parallel::distributed::Triangulation<dim> *>(&triangulation))
+      {
+        std::vector<CellCorners<dim>> cells;
+        for (const auto &cell : triangulation.active_cell_iterators())
+          if (cell->is_locally_owned())
+            cells.push_back({{cell->vertex(0), cell->vertex(1), cell->vertex(2), cell->vertex(3)}});
+        check_number(Utilities::MPI::sum(expected_cells(cells, 1., context), triangulation.get_communicator()));
+      }
     const AdaptationReport report = run(triangulation, context, {}, {}, true);
     if (auto *distributed = dynamic_cast<parallel::distributed::Triangulation<dim> *>(&triangulation))
       distributed->repartition(); // also if nothing changed: the first partition knew of no weights

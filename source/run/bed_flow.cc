@@ -25,7 +25,6 @@ namespace alluvium::run
       if (columns[c].left > columns[c - 1].right + tiny)
         return result;
 
-    using Kind = fluid::BoundaryConditions<Model::dim>::Kind;
     std::map<std::string, std::array<double, 2>> heights; // of each side, lowest and highest point
     for (const auto &side : m.domain.sides())
       {
@@ -42,7 +41,7 @@ namespace alluvium::run
     for (const auto &[id, condition] : m.boundary_conditions.all())
       {
         const auto side = heights.find(condition.name);
-        if ((condition.kind != Kind::pressure && condition.kind != Kind::velocity) || side == heights.end())
+        if (!condition.kind->lets_fluid_pass() || side == heights.end())
           continue;
         const auto [low, high] = side->second;
         if (high <= m.initial_bed.bottom() + reach)

@@ -1,8 +1,8 @@
 #include <alluvium/coupling/homogeneous_bed.h>
 #include <alluvium/run/check_time_step.h>
 #include <alluvium/run/model.h>
-#include <alluvium/run/scene_numbers.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -23,7 +23,7 @@ namespace alluvium::run
       bool   is_known() const { return tau > 0. && eps > 0.; }
     };
 
-    FrozenVelocity frozen_velocity(const Model &m, const double end_time)
+    FrozenVelocity frozen_velocity(const Model &m)
     {
       FrozenVelocity result;
       double         mass = 0., volume = 0.;
@@ -35,9 +35,9 @@ namespace alluvium::run
           }
       if (!(mass > 0.))
         return result;
-      // that of the bed; of grains here and there, where there are most
-      const double in_bed = find_scene_numbers(m, end_time).eps;
-      result.eps          = in_bed < 1. ? in_bed : m.coupling.report().eps_min;
+      // where they are dense it is that changes grow, and few are enough
+      constexpr double densest = 0.1;
+      result.eps               = coupling::void_fraction_of_densest(m.coupling, m.space, densest);
       result.tau =
         coupling::HomogeneousBed{m.grains, m.solver.properties, result.eps}.relaxation_time(m.coupling.drag_law());
       result.r             = (1. - result.eps) / result.eps * m.solver.properties.density * volume / mass;
@@ -52,31 +52,41 @@ namespace alluvium::run
   } // namespace
 
 
-  double stable_step(const Model &m, const double end_time)
+  double stable_step(const Model &m)
   {
     if (has_limit(m))
-      if (const FrozenVelocity frozen = frozen_velocity(m, end_time); frozen.is_known())
+      if (const FrozenVelocity frozen = frozen_velocity(m); frozen.is_known())
         return frozen.limit();
     return std::numeric_limits<double>::infinity();
   }
 
 
-  void check_time_step(Model &m, const double end_time)
+  void check_time_step(Model &m)
   {
-    if (!has_limit(m))
+    // numbers differ from step to step, and the first ones tell enough
+    const std::string kind = "Coupling/Time scheme = " + m.coupling.scheme_name() + ": ";
+    const auto       &said = m.warnings.all();
+    if (!has_limit(m) || std::any_of(said.begin(), said.end(), [&](const Warnings::Warning &warning) {
+          return warning.text.compare(0, kind.size(), kind) == 0;
+        }))
       return;
-    const FrozenVelocity frozen = frozen_velocity(m, end_time);
+    const FrozenVelocity frozen = frozen_velocity(m);
     if (!frozen.is_known() || m.time_step < frozen.limit())
       return;
     std::ostringstream text;
     text.precision(2);
-    text << "Coupling/Time scheme = " << m.coupling.scheme_name() << ": grains of void fraction " << frozen.eps;
+    const char *const where = ", that of the densest tenth of the grains";
+    const char *const line  = " (the line in doc/lab/time-schemes): use iterated, which has no such limit";
+    text << kind;
     if (frozen.r >= 1.)
-      text << " and " << frozen.density_ratio << " times the fluid's density are unstable with it at any time step";
+      text << "it is unstable at any time step at void fraction " << frozen.eps << where
+           << ", since this is below 1/(1 + s) = " << 1. / (1. + frozen.density_ratio)
+           << " of grains of s = " << frozen.density_ratio << " times the fluid's density" << line;
     else
-      text << " are unstable with it at time steps above " << frozen.limit()
-           << " s, 2 eps^2 (1 - r) tau_p, and this one is " << m.time_step << " s";
-    text << "; the default, iterated, has no such limit";
+      text << "the time step of " << m.time_step << " s is " << m.time_step / frozen.limit()
+           << " times its limit of stability at void fraction " << frozen.eps << where
+           << ", 2 eps^2 (1 - r) tau_p = " << frozen.limit() << " s with r = " << frozen.r
+           << " and tau_p = " << frozen.tau << " s" << line << ", or Time/Time step <= " << frozen.limit();
     m.warnings.add(text.str(), m.time);
   }
 } // namespace alluvium::run

@@ -1,5 +1,6 @@
 #include <alluvium/run/check_walls.h>
 #include <alluvium/run/model.h>
+#include <alluvium/utilities/digits.h>
 
 #include <algorithm>
 #include <string>
@@ -55,8 +56,19 @@ namespace alluvium::run
   } // namespace
 
 
-  void check_walls(Model &m)
+  void check_walls(Model &m, const double end_time)
   {
+    QuotedNames late;
+    for (const auto &wall : m.contacts.walls())
+      if (wall.motion && std::any_of(wall.motion->phases.begin(), wall.motion->phases.end(), [&](const auto &phase) {
+            return phase.from >= end_time || phase.to <= 0.;
+          }))
+        late.add(wall.name);
+    if (!late.text.empty())
+      m.warnings.add("Grains/Motion of walls: " + late.text + " is to move at times that this run, from 0 to " +
+                       in_digits(end_time) + " s, does not have",
+                     m.time);
+
     QuotedNames acting, sides;
     for (const auto &wall : m.contacts.walls())
       if (grains::ever_acts(wall))

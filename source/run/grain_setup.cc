@@ -2,6 +2,7 @@
 #include <alluvium/grains/bed_packing.h>
 #include <alluvium/run/grain_setup.h>
 #include <alluvium/utilities/digits.h>
+#include <alluvium/utilities/magnitudes.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_handler.h>
@@ -59,7 +60,7 @@ namespace alluvium::run
     prm.add_parameter("Density",
                       density,
                       "Density of the grains [kg/m^3], where the deposit does not give it.",
-                      Patterns::Double(1e-3));
+                      Patterns::Double(1e-3, magnitudes::largest_density));
     prm.add_parameter(
       "Fluid radius factor",
       factor,
@@ -163,7 +164,8 @@ namespace alluvium::run
                                           may_write,
                                           &warnings,
                                           {},
-                                          domain.is_rectangle() ? std::vector<grains::WallSegment>() : domain.sides()});
+                                          domain.is_rectangle() ? std::vector<grains::WallSegment>() : domain.sides(),
+                                          !fixed_grains});
                           for (const std::string &warning : warnings)
                             std::cerr << "alluvium: warning: " << warning << std::endl;
                           std::vector<double> flat;

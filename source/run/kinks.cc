@@ -93,8 +93,8 @@ namespace alluvium::run
   std::vector<double> given_kinks(const Model &m, const double end_time)
   {
     std::vector<double> result;
-    const auto          look_at = [&](const Function &f) {
-      const auto found = find_kinks(f, 0., end_time);
+    const auto          look_at = [&](const Function &f, const double from, const double to) {
+      const auto found = find_kinks(f, from, to);
       result.insert(result.end(), found.begin(), found.end());
     };
     if (m.has_fluid)
@@ -107,16 +107,19 @@ namespace alluvium::run
             for (unsigned int c = 0; c < condition.value->n_components; ++c)
               for (const double x : shares)
                 for (const double y : shares)
-                  look_at([&, component = c, function = condition.value](const double t) {
-                    function->set_time(t);
-                    return function->value({(1. - x) * lower[0] + x * upper[0], (1. - y) * lower[1] + y * upper[1]},
-                                           component);
-                  });
+                  look_at(
+                    [&, component = c, function = condition.value](const double t) {
+                      function->set_time(t);
+                      return function->value({(1. - x) * lower[0] + x * upper[0], (1. - y) * lower[1] + y * upper[1]},
+                                             component);
+                    },
+                    0.,
+                    end_time);
         for (const auto &[id, condition] : m.boundary_conditions.all())
           if (condition.value)
             condition.value->set_time(m.boundary_conditions.current_time());
         for (const auto &driving : m.solver.driving_functions())
-          look_at(driving);
+          look_at(driving.component, 0., end_time);
       }
     for (const auto &wall : m.contacts.walls())
       if (wall.motion)
@@ -129,7 +132,10 @@ namespace alluvium::run
               result.push_back(phase.to);
               if (phase.at_time)
                 for (unsigned int c = 0; c < 3; ++c)
-                  look_at([&, c](const double t) { return phase.at_time(t)[c]; });
+                  // the formula need not be defined outside its phase
+                  look_at([&, c](const double t) { return phase.at_time(std::clamp(t, phase.from, phase.to))[c]; },
+                          std::max(0., phase.from),
+                          std::min(end_time, phase.to));
             }
         }
     result.erase(

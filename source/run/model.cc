@@ -1,4 +1,5 @@
 #include <alluvium/run/model.h>
+#include <alluvium/utilities/magnitudes.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_handler.h>
@@ -23,8 +24,11 @@ namespace alluvium::run
 
   void Model::add_parameters(ParameterHandler &prm)
   {
-    prm.add_parameter(
-      "Gravity", gravity_text, "Acceleration of gravity, x and y [m/s^2].", Patterns::List(Patterns::Double(), 2, 2));
+    constexpr double g = magnitudes::largest_acceleration;
+    prm.add_parameter("Gravity",
+                      gravity_text,
+                      "Acceleration of gravity, x and y [m/s^2].",
+                      Patterns::List(Patterns::Double(-g, g), 2, 2));
     prm.enter_subsection("Fluid");
     prm.add_parameter(
       "Model",
@@ -52,7 +56,13 @@ namespace alluvium::run
       solver.gravity[d] = gravity[d] = g[d];
     has_fluid   = fluid_model != "none";
     grains_move = !grain_setup.fixed();
+    grain_setup.parse_parameters();
+    contacts.parse_parameters();
     coupling.parse_parameters();
+    if (!has_fluid)
+      return;
+    adaptivity.parse_parameters();
+    boundary_conditions.parse_parameters();
   }
 
 

@@ -62,6 +62,17 @@ namespace alluvium::run
   }
 
 
+  void Output::parse_parameters()
+  {
+    const auto names = Utilities::split_string_list(head_between);
+    check_user(names.empty() || names.size() == 2,
+               "Output/Head between: expected the names of two boundaries, got '" + head_between + "'.");
+    check_user(names.empty() || names[0] != names[1],
+               "Output/Head between: a head is between two boundaries, but '" + head_between + "' is one.");
+    choice.parse_parameters();
+  }
+
+
   void Output::choose_observers()
   {
     if (model.has_fluid)
@@ -130,11 +141,7 @@ namespace alluvium::run
   void Output::choose_head()
   {
     head_ids.clear();
-    const auto names = Utilities::split_string_list(head_between);
-    check_user(names.empty() || names.size() == 2,
-               "Output/Head between: expected the names of two boundaries, got '" + head_between + "'.");
-    check_user(names.empty() || names[0] != names[1],
-               "Output/Head between: a head is between two boundaries, but '" + head_between + "' is one.");
+    const auto  names = Utilities::split_string_list(head_between);
     std::string known;
     for (const auto &[name, id] : model.domain.boundary_ids())
       known += (known.empty() ? "'" : ", '") + name + "'";

@@ -22,10 +22,9 @@ namespace alluvium::run
     /** The largest velocity given on a boundary now [m/s]. */
     double largest_given_velocity(const Model &m)
     {
-      using Kind     = fluid::BoundaryConditions<Model::dim>::Kind;
       double largest = 0.;
       for (const auto &[id, condition] : m.boundary_conditions.all())
-        if (condition.kind == Kind::velocity)
+        if (condition.kind->velocity() == fluid::BoundaryKind<Model::dim>::Velocity::given)
           for (const auto &side : m.domain.sides())
             if (side.name == condition.name)
               for (const double s : {0.02, 0.25, 0.5, 0.75, 0.98})

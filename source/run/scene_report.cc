@@ -28,23 +28,8 @@ namespace alluvium::run
 
     std::string in_words(const fluid::BoundaryConditions<Model::dim>::Condition &condition)
     {
-      using Kind = fluid::BoundaryConditions<Model::dim>::Kind;
-      const std::string expressions =
-        (condition.text.empty() ? "" : " " + condition.text) + (condition.add_hydrostatic ? " above hydrostatic" : "");
-      switch (condition.kind)
-        {
-          case Kind::no_slip:
-            return "no slip";
-          case Kind::slip:
-            return "slip";
-          case Kind::pressure:
-            return "pressure" + expressions;
-          case Kind::velocity:
-            return "velocity" + expressions;
-          case Kind::natural:
-            return "natural";
-        }
-      return "";
+      return condition.kind->in_words() + (condition.text.empty() ? "" : " " + condition.text) +
+             (condition.add_hydrostatic ? " above hydrostatic" : "");
     }
 
     /** Every boundary of the domain with what it is to fluid and grains. */
@@ -220,7 +205,7 @@ namespace alluvium::run
     lines("boundaries", boundaries(m));
     lines("walls", other_walls(m));
     line("contacts",
-         m.grains_move ? std::to_string(m.contacts.walls().size()) + " walls; " + m.contacts.sharing(m.grains.n())
+         m.grains_move ? std::to_string(m.contacts.walls().size()) + " walls; " + m.contacts.partitioning(m.grains.n())
                        : "left out: all grains are fixed");
     line("observers", output.observers());
     line("costs",

@@ -1,6 +1,7 @@
 #include <alluvium/run/checkpoint.h>
 #include <alluvium/run/mesh_changes.h>
 #include <alluvium/run/model.h>
+#include <alluvium/run/poles.h>
 #include <alluvium/run/scene_size.h>
 #include <alluvium/run/set_up.h>
 #include <alluvium/utilities/divergence.h>
@@ -153,9 +154,8 @@ namespace alluvium::run
   }
 
 
-  void set_up(Model &m, const std::string &directory, Checkpoint *from)
+  void set_up(Model &m, const std::string &directory, Checkpoint *from, const double end_time)
   {
-    m.parse_parameters();
     check_user(m.has_fluid || !(m.grain_setup.unit_length() > 0.),
                "Grains/Deposit = none and Fluid/Model = none: there is nothing to compute.");
     m.domain.initialize(m.communicator, directory);
@@ -163,6 +163,7 @@ namespace alluvium::run
       check_boundary_conditions(m);
     const auto walls = m.grain_setup.walls(m.domain);
     m.contacts.set_walls(walls);
+    check_poles_of_walls(m, end_time);
     m.contacts.set_periodicity(m.domain.periodicity());
     m.contacts.set_communicator(m.communicator);
     const std::array<double, 2> lower = {{m.domain.lower()[0], m.domain.lower()[1]}},
@@ -184,10 +185,13 @@ namespace alluvium::run
                                : m.adaptivity.coarse_size(m.refinement_context());
         m.touched.assign(m.grains.n(), 0);
         check_scene_size(m);
+        if (const std::string remark = m.adaptivity.remark_on_limits(m.refinement_context());
+            m.has_fluid && !remark.empty())
+          m.warnings.add(remark, m.time);
         if (m.is_root)
-          for (const std::string &path : noted_inputs())
-            if (std::filesystem::path(path).extension() == ".csv")
-              m.inputs[path] = digest_of_file(path);
+          for (const InputFile &input : noted_inputs())
+            if (std::filesystem::path(input.path).extension() == ".csv")
+              m.inputs[input.path] = input.digest;
       }
     double largest = 0.;
     for (const double r : m.grains.radius)

@@ -75,7 +75,6 @@ namespace alluvium::run
 
   void StepMeter::find_faces(const Model &m)
   {
-    using Kind = fluid::BoundaryConditions<Model::dim>::Kind;
     faces.clear();
     faces_known                   = true;
     const auto        &periodic   = m.space.periodic_box().length;
@@ -100,8 +99,10 @@ namespace alluvium::run
             bool                    pressure = false, velocity = false;
             for (const auto &part : m.space.boundary().divide_face(id, a, b))
               {
-                pressure = pressure || conditions.at(part.id).kind == Kind::pressure;
-                velocity = velocity || conditions.at(part.id).kind == Kind::velocity;
+                const auto &kind     = *conditions.at(part.id).kind;
+                const bool  is_given = kind.velocity() == fluid::BoundaryKind<Model::dim>::Velocity::given;
+                pressure             = pressure || (kind.lets_fluid_pass() && !is_given);
+                velocity             = velocity || is_given;
               }
             if (!pressure && !velocity)
               continue;

@@ -81,13 +81,15 @@ namespace alluvium::run
   }
 
 
-  void TimeStepControl::parse_parameters()
+  void TimeStepControl::parse_parameters(const double end_of_run)
   {
     const std::string word = Utilities::trim(text);
     is_automatic           = word == "auto";
+    // no longer than the run: with this step the set-up tries what the contacts do
+    const auto cut = [&](const double dt) { return end_of_run > 0. ? std::min(dt, end_of_run) : dt; };
     if (is_automatic)
       {
-        model.time_step = largest > 0. ? largest : 1e-3;
+        model.time_step = cut(largest > 0. ? largest : 1e-3);
         return;
       }
     std::size_t end = 0;
@@ -102,7 +104,7 @@ namespace alluvium::run
     check_user(end == word.size() && end > 0 && word.find_first_of("xX") == std::string::npos && fixed >= 1e-12 &&
                  std::isfinite(fixed),
                "Time/Time step: expected `auto` or a number of seconds of at least 1e-12, got '" + text + "'.");
-    model.time_step = fixed;
+    model.time_step = cut(fixed);
   }
 
 
@@ -202,7 +204,7 @@ namespace alluvium::run
       }
     constexpr unsigned int stable_interval = 20;
     if (model.n_steps % stable_interval == 0 || !(stable > 0.))
-      stable = stable_step(model, end_time);
+      stable = stable_step(model);
     constexpr double safety = 0.8;
     double           dt     = wanted;
     if (stable > 0. && safety * stable < dt) // 0: no step is stable, which has been warned of

@@ -1,6 +1,7 @@
 #include <alluvium/run/wall_setup.h>
 #include <alluvium/utilities/digits.h>
 #include <alluvium/utilities/expression.h>
+#include <alluvium/utilities/magnitudes.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/function.h>
@@ -28,7 +29,7 @@ namespace alluvium::run
         {
           std::size_t length = 0;
           x                  = std::stod(text, &length);
-          return length == text.size() && std::isfinite(x);
+          return length == text.size() && std::abs(x) <= magnitudes::largest;
         }
       catch (const std::exception &)
         {
@@ -145,9 +146,18 @@ namespace alluvium::run
         const auto          arrow = ends.find("->");
         std::vector<double> a, b;
         check_user(arrow != std::string::npos && read_numbers(ends.substr(0, arrow), a) &&
-                     read_numbers(ends.substr(arrow + 2), b) && a.size() == 2 && b.size() == 2 && a != b,
+                     read_numbers(ends.substr(arrow + 2), b) && a.size() == 2 && b.size() == 2,
                    extra_name + ": expected `x1, y1 -> x2, y2; ...` or `name: x1, y1 -> x2, y2; ...` in metres, got '" +
                      item + "'.");
+        check_user(colon == std::string::npos || !Utilities::trim(item.substr(0, colon)).empty(),
+                   extra_name + ": '" + item + "' has no name before its ':'.");
+        const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+        check_user(length >= magnitudes::smallest_length && length <= magnitudes::largest_length,
+                   extra_name + ": the wall '" + item + "' " +
+                     (length == 0. ? "has no length: its ends are the same point."
+                                   : "is " + in_digits(length) + " m long; expected from " +
+                                       in_digits(magnitudes::smallest_length) + " to " +
+                                       in_digits(magnitudes::largest_length) + " m."));
         extra.push_back({{{a[0], a[1]}},
                          {{b[0], b[1]}},
                          {{0., 0.}},
@@ -168,9 +178,10 @@ namespace alluvium::run
     check_user(colon != std::string::npos, expected);
     const Words words = read_words(item.substr(colon + 1));
     check_user(words.good, expected);
-    Motion &m    = motions[Utilities::trim(item.substr(0, colon))];
-    m.written_in = motion_name;
-    m.rigid      = m.rigid || words.rigid;
+    const std::string name = Utilities::trim(item.substr(0, colon));
+    Motion           &m    = motions[name];
+    m.written_in           = motion_name;
+    m.rigid                = m.rigid || words.rigid;
     grains::WallMotion::Phase phase;
     phase.from = words.from;
     phase.to   = words.to;
@@ -202,18 +213,20 @@ namespace alluvium::run
           check_user(!mentions(text, "x") && !mentions(text, "y"),
                      motion_name + ": a wall moves as a whole, its velocity may depend on t only, got '" + item + "'.");
         const auto function = parse_expressions(motion_name, texts, {{"pi", numbers::PI}});
-        phase.at_time       = [function](const double t) {
+        phase.text          = words.before;
+        phase.at_time       = [function, name, text = phase.text](const double t) {
           grains::WallMotion::Velocity v;
           function->set_time(t);
           for (unsigned int d = 0; d < 3; ++d)
             {
               v[d] = function->value(Point<2>(), d);
               check_user(std::isfinite(v[d]),
-                         motion_name + ": a velocity is not a number at t = " + in_digits(t) + " s.");
+                         motion_name + ": '" + name + "': '" + text + "' is " + in_digits(v[d]) +
+                           " at t = " + in_digits(t) + " s; expected finite numbers while it moves.");
             }
           return v;
         };
-        phase.at_time(0.);
+        phase.at_time(std::max(0., phase.from));
         for (unsigned int d = 0; d < 2; ++d)
           m.may_go[d] = m.may_go[d] || texts[d] != "0";
       }

@@ -160,7 +160,7 @@ namespace alluvium::scene
             {
               const Statement *own = statement_of(name);
               if (!own)
-                overrides.push_back({declared.split(name), value, "Accuracy = " + accuracy, false});
+                overrides.push_back({declared.split(name), value, "Accuracy = " + accuracy, false, "", 0});
               text += (text.empty() ? "" : ", ") + (own ? in_words(*own) : name + " = " + value);
             }
         lines.push_back(choice.group + ": " + (left_alone.empty() ? text : left_alone));

@@ -15,11 +15,16 @@ namespace alluvium::scene
 {
   namespace
   {
-    void collect(const nlohmann::ordered_json   &node,
-                 ParameterPath                  &path,
-                 std::vector<DeclaredParameter> &parameters,
-                 std::vector<ParameterPath>     &sections,
-                 std::vector<ParameterPath>     &aliases)
+    ParameterPath parent(const ParameterPath &path)
+    {
+      return {path.begin(), path.end() - 1};
+    }
+
+    void collect(const nlohmann::ordered_json                         &node,
+                 ParameterPath                                        &path,
+                 std::vector<DeclaredParameter>                       &parameters,
+                 std::vector<ParameterPath>                           &sections,
+                 std::vector<std::pair<ParameterPath, ParameterPath>> &aliases)
     {
       if (!node.is_object()) // an empty section is written as an empty string
         return;
@@ -33,7 +38,10 @@ namespace alluvium::scene
                                   entry.value("documentation", std::string()),
                                   entry.value("pattern_description", std::string("[Anything]"))});
           else if (entry.is_object() && entry.contains("alias") && entry["alias"].is_string())
-            aliases.push_back(path);
+            {
+              aliases.emplace_back(path, parent(path)); // both are in one section
+              aliases.back().second.push_back(entry["alias"]);
+            }
           else
             {
               sections.push_back(path);
@@ -64,11 +72,6 @@ namespace alluvium::scene
       if (upper != highest)
         return kind + " <= " + upper;
       return kind;
-    }
-
-    ParameterPath parent(const ParameterPath &path)
-    {
-      return {path.begin(), path.end() - 1};
     }
 
     /** @p text broken at blanks into lines of at most @p width. */
@@ -176,7 +179,15 @@ namespace alluvium::scene
 
     // An old name has no entry of its own: report it as a parameter that takes anything and let deal.II judge.
     static const DeclaredParameter old_name{{}, "", "", "", "[Anything]"};
-    return std::find(aliases.begin(), aliases.end(), path) != aliases.end() ? &old_name : nullptr;
+    return present_name(path) != path ? &old_name : nullptr;
+  }
+
+
+  ParameterPath DeclaredParameters::present_name(const ParameterPath &path) const
+  {
+    const auto alias =
+      std::find_if(aliases.begin(), aliases.end(), [&](const auto &names) { return names.first == path; });
+    return alias == aliases.end() ? path : alias->second;
   }
 
 
@@ -191,9 +202,9 @@ namespace alluvium::scene
     for (const auto &parameter : all_parameters)
       if (to_string(parameter.path) == text)
         return parameter.path;
-    for (const auto &alias : aliases)
-      if (to_string(alias) == text)
-        return alias;
+    for (const auto &[old_name, present] : aliases)
+      if (to_string(old_name) == text)
+        return old_name;
     ParameterPath path;
     for (const auto &name : dealii::Utilities::split_string_list(text, '/'))
       path.push_back(dealii::Utilities::trim(name));

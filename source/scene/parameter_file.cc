@@ -1,6 +1,7 @@
 #include <alluvium/scene/accuracy.h>
 #include <alluvium/scene/parameter_file.h>
 #include <alluvium/utilities/input_files.h>
+#include <alluvium/utilities/magnitudes.h>
 #include <alluvium/utilities/nearest_name.h>
 #include <alluvium/utilities/text_file.h>
 #include <alluvium/utilities/user_error.h>
@@ -11,9 +12,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 namespace alluvium::scene
@@ -81,7 +85,7 @@ namespace alluvium::scene
       void scan_line(std::string text, const std::string &file_name, const unsigned int number, const std::size_t depth)
       {
         const std::string origin = file_name + ":" + std::to_string(number);
-        text                     = trim(text.substr(0, text.find('#')));
+        text                     = trim(with_plain_blanks(text.substr(0, text.find('#'))));
         if (text.empty())
           return;
 
@@ -99,7 +103,7 @@ namespace alluvium::scene
             check_user(!rest.empty(), origin + ": 'subsection' needs a name.");
             sections.push_back(rest);
             opened_at.push_back(origin);
-            statements.push_back({sections, "", origin, true});
+            statements.push_back({sections, "", origin, true, open_files.back().string(), number});
           }
         else if (is("end"))
           {
@@ -115,7 +119,8 @@ namespace alluvium::scene
                        origin + ": expected 'set NAME = VALUE', found '" + text + "'.");
             ParameterPath path = sections;
             path.push_back(trim(rest.substr(0, equals)));
-            statements.push_back({path, trim(rest.substr(equals + 1)), origin, false});
+            statements.push_back(
+              {path, trim(rest.substr(equals + 1)), origin, false, open_files.back().string(), number});
           }
         else if (is("include"))
           {
@@ -189,6 +194,19 @@ namespace alluvium::scene
       return "";
     }
 
+    /** Is one of the numbers that @p value is by its @p pattern larger or smaller than can be computed with? */
+    bool is_beyond_size(const std::string &pattern, const std::string &value)
+    {
+      const auto is = [&](const std::string &kind) { return pattern.compare(0, kind.size(), kind) == 0; };
+      if (!is("[Double") && !is("[List of <[Double"))
+        return false;
+      for (const std::string &item : dealii::Utilities::split_string_list(value))
+        if (const double size = std::abs(std::strtod(item.c_str(), nullptr));
+            size > magnitudes::largest || (size > 0. && size < magnitudes::smallest))
+          return true;
+      return false;
+    }
+
     std::string bad_value(const Statement &statement, const std::string &pattern)
     {
       std::string text = statement.origin + ": parameter '" + to_string(statement.path) + "' ";
@@ -204,7 +222,7 @@ namespace alluvium::scene
           if (!nearest.empty())
             text += " Did you mean '" + nearest + "'?";
         }
-      return text;
+      return text + look_alikes_in(statement.value);
     }
   } // namespace
 
@@ -223,7 +241,7 @@ namespace alluvium::scene
     const auto        equals = text.find('=');
     check_user(equals != std::string::npos && !trim(text.substr(0, equals)).empty(),
                origin + ": expected --set 'Section/Name=value'.");
-    return {declared.split(trim(text.substr(0, equals))), trim(text.substr(equals + 1)), origin, false};
+    return {declared.split(trim(text.substr(0, equals))), trim(text.substr(equals + 1)), origin, false, "", 0};
   }
 
 
@@ -268,6 +286,10 @@ namespace alluvium::scene
                              in_section(statement.path) + declared.suggest_parameter(statement.path));
         else if (!matches(parameter->pattern, statement.value))
           problems.push_back(bad_value(statement, parameter->pattern));
+        else if (is_beyond_size(parameter->pattern, statement.value))
+          problems.push_back(statement.origin + ": parameter '" + to_string(statement.path) + "' cannot be '" +
+                             statement.value + "': expected " + allowed_in_words(parameter->pattern) +
+                             ", of a size from 1e-30 to 1e30 if it is not 0.");
         else if (const std::string twice = name_twice(parameter->pattern, statement.value); !twice.empty())
           problems.push_back(statement.origin + ": parameter '" + to_string(statement.path) + "' has '" + twice +
                              "' twice; it can be there once.");
@@ -310,6 +332,28 @@ namespace alluvium::scene
   }
 
 
+  std::vector<std::string> find_repetitions(const std::vector<Statement> &statements,
+                                            const DeclaredParameters     &declared)
+  {
+    std::map<std::pair<std::string, ParameterPath>, const Statement *> earlier; // by file and present name
+    std::vector<std::string>                                           found;
+    for (const Statement &now : statements)
+      {
+        if (now.opens_section || now.file.empty())
+          continue;
+        const Statement *&before = earlier[{now.file, declared.present_name(now.path)}];
+        if (before != nullptr && before->line != now.line) // else the file is included twice
+          found.push_back(now.origin + ": parameter '" + to_string(now.path) + "' is set twice in this file: '" +
+                          now.value + "' overrides the '" + before->value + "' of line " +
+                          std::to_string(before->line) +
+                          (before->path == now.path ? "" : ", where it is called '" + before->path.back() + "'") +
+                          ". Delete one of the lines.");
+        before = &now;
+      }
+    return found;
+  }
+
+
   void declare_method(dealii::ParameterHandler &prm)
   {
     prm.declare_entry("Method",
@@ -333,16 +377,16 @@ namespace alluvium::scene
       {
         const DeclaredParameters declared(prm);
         for (const auto &[name, value] : paper_method)
-          overrides.push_back({declared.split(name), value, "Method = paper", false});
+          overrides.push_back({declared.split(name), value, "Method = paper", false, "", 0});
       }
     return overrides;
   }
 
 
-  std::vector<std::string> read_parameters(dealii::ParameterHandler       &prm,
-                                           const std::string              &file_name,
-                                           const std::vector<std::string> &assignments,
-                                           const ParameterOverrides       &paper_method)
+  Remarks read_parameters(dealii::ParameterHandler       &prm,
+                          const std::string              &file_name,
+                          const std::vector<std::string> &assignments,
+                          const ParameterOverrides       &paper_method)
   {
     std::vector<Statement> statements;
     if (!file_name.empty())
@@ -352,11 +396,13 @@ namespace alluvium::scene
     for (const auto &assignment : assignments)
       statements.push_back(read_assignment(assignment, declared));
 
+    Remarks remarks;
+    remarks.warnings = find_repetitions(statements, declared);
     // what the scene says comes after what Method says, and that after what Accuracy says
     const auto method = method_statements(prm, statements, paper_method);
     statements.insert(statements.begin(), method.begin(), method.end());
-    auto choices = apply_accuracy(prm, statements);
+    remarks.choices = apply_accuracy(prm, statements);
     apply_statements(prm, statements);
-    return choices;
+    return remarks;
   }
 } // namespace alluvium::scene

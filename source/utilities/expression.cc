@@ -1,9 +1,11 @@
 #include <alluvium/utilities/expression.h>
+#include <alluvium/utilities/text_file.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/function_parser.h>
 
 #include <cctype>
+#include <iostream>
 
 namespace alluvium
 {
@@ -44,6 +46,34 @@ namespace alluvium
           return true;
       return false;
     }
+    /** Is there a `=` of its own? muParser gives the variable before it another value, for all that comes after. */
+    bool has_assignment(const std::string &expression)
+    {
+      const std::string comparing = "<>=!";
+      for (std::size_t i = 0; i < expression.size(); ++i)
+        if (expression[i] == '=' && (i == 0 || comparing.find(expression[i - 1]) == std::string::npos) &&
+            (i + 1 == expression.size() || expression[i + 1] != '='))
+          return true;
+      return false;
+    }
+
+    /** deal.II prints what muParser has to say of a mistake, beside throwing it. Nothing is printed while this lives.
+     */
+    class Silence
+    {
+    public:
+      Silence()
+        : screen(std::cerr.rdbuf(nullptr))
+      {}
+
+      ~Silence() { std::cerr.rdbuf(screen); }
+
+      Silence(const Silence &)            = delete;
+      Silence &operator=(const Silence &) = delete;
+
+    private:
+      std::streambuf *const screen;
+    };
   } // namespace
 
 
@@ -59,10 +89,13 @@ namespace alluvium
                    where + ": '" + component +
                      "' are several values, separated by a comma, where one is expected; decimals are written with a "
                      "point.");
+        check_user(!has_assignment(component),
+                   where + ": '" + component + "' has a single '='; to compare, write '=='.");
       }
     auto result = std::make_shared<FunctionParser<2>>(components.size());
     try
       {
+        const Silence silence;
         result->initialize(FunctionParser<2>::default_variable_names() + ",t", components, constants, true);
         result->value(Point<2>());
       }
@@ -72,7 +105,8 @@ namespace alluvium
         for (const auto &[name, value] : constants)
           names += ", " + name;
         throw UserError(where + ": cannot understand '" + text + "'; it may use x, y, t" + names + "." +
-                        (has_decimal_comma(text) ? " Decimals are written with a point, not a comma." : ""));
+                        (has_decimal_comma(text) ? " Decimals are written with a point, not a comma." : "") +
+                        look_alikes_in(text));
       }
     return result;
   }

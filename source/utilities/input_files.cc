@@ -9,25 +9,37 @@ namespace alluvium
 {
   namespace
   {
-    std::vector<std::string> &all_inputs()
+    std::vector<InputFile> &all_inputs()
     {
-      static std::vector<std::string> inputs;
+      static std::vector<InputFile> inputs;
       return inputs;
     }
   } // namespace
 
 
-  void note_input(const std::string &path)
+  void note_input(const std::string &path, const std::string &digest)
   {
-    auto &inputs = all_inputs();
-    if (std::find(inputs.begin(), inputs.end(), path) == inputs.end())
-      inputs.push_back(path);
+    auto      &inputs = all_inputs();
+    const auto known =
+      std::find_if(inputs.begin(), inputs.end(), [&](const InputFile &input) { return input.path == path; });
+    if (known == inputs.end())
+      inputs.push_back({path, digest});
+    else if (!digest.empty())
+      known->digest = digest;
   }
 
 
-  const std::vector<std::string> &noted_inputs()
+  const std::vector<InputFile> &noted_inputs()
   {
     return all_inputs();
+  }
+
+
+  std::string digest_of(const std::string &content)
+  {
+    std::ostringstream digest;
+    digest << content.size() << ' ' << std::hex << crc32(content);
+    return digest.str();
   }
 
 
@@ -37,9 +49,6 @@ namespace alluvium
     std::ostringstream all;
     if (!in.good() || !(all << in.rdbuf()))
       return "";
-    const std::string  text = all.str();
-    std::ostringstream digest;
-    digest << text.size() << ' ' << std::hex << crc32(text);
-    return digest.str();
+    return digest_of(all.str());
   }
 } // namespace alluvium

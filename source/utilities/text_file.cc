@@ -47,6 +47,31 @@ namespace alluvium
   }
 
 
+  std::string with_plain_blanks(std::string text)
+  {
+    for (const std::string blank :
+         {"\xC2\xA0", "\xE2\x80\x82", "\xE2\x80\x83", "\xE2\x80\x87", "\xE2\x80\x89", "\xE2\x80\xAF"})
+      for (auto at = text.find(blank); at != std::string::npos; at = text.find(blank, at))
+        text.replace(at, blank.size(), " ");
+    for (const std::string nothing : {"\xE2\x80\x8B", "\xEF\xBB\xBF"})
+      for (auto at = text.find(nothing); at != std::string::npos; at = text.find(nothing, at))
+        text.erase(at, nothing.size());
+    return text;
+  }
+
+
+  std::string look_alikes_in(const std::string &text)
+  {
+    for (const std::string dash : {"\xE2\x88\x92", "\xE2\x80\x90", "\xE2\x80\x91", "\xE2\x80\x93", "\xE2\x80\x94"})
+      if (text.find(dash) != std::string::npos)
+        return " The '" + dash + "' in it is another character than the minus sign '-'.";
+    for (const std::string other : {"\xC3\x97", "\xC2\xB7"})
+      if (text.find(other) != std::string::npos)
+        return " The '" + other + "' in it is no operator; multiply with '*'.";
+    return "";
+  }
+
+
   std::string read_text_file(const std::string &file, const std::string &what)
   {
     const std::string named = what + " '" + file + "'";
@@ -60,8 +85,8 @@ namespace alluvium
     if (in.peek() != std::ifstream::traits_type::eof())
       all << in.rdbuf();
     check_user(!in.bad() && !all.fail(), "Cannot read the " + named + ".");
-    note_input(file);
     std::string text = all.str();
+    note_input(file, digest_of(text));
     strip_byte_order_mark(text, "The " + named);
     check_user(text.find('\0') == std::string::npos, "The " + named + " is no text: it holds zero bytes.");
     if (text.find('\n') == std::string::npos) // an old Macintosh's line ends

@@ -361,7 +361,7 @@ namespace
   void measure_cold(const Bed &bed, const std::string &solver, const double dt, const std::string &set)
   {
     // What a step costs besides sweeps: two runs of plain sweeps of different lengths tell.
-    const std::string plain = set + "set Cold start = false\n";
+    const std::string plain = set + "set Hydrostatic initial guess = false\n";
     const ColdRun     few   = run_cold(bed, "Gauss-Seidel", dt, plain, 20),
                   more      = run_cold(bed, "Gauss-Seidel", dt, plain, 420);
     const double sweep = (more.seconds - few.seconds) / 400., rest = std::max(0., few.seconds - 20. * sweep);

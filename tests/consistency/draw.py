@@ -268,7 +268,7 @@ def make_settings(scene, draw):
     put["Boundary conditions/Pressure on inflow"] = draw.choice(("static", "static", "total"))
     put["Boundary conditions/Given velocity"] = draw.choice(("superficial", "superficial", "interstitial"))
     put["Coupling/Filter radius"] = draw.choice(("2 d", "2 d", "1.5 d", "grain"))
-    put["Coupling/Filter shape"] = draw.choice(("even", "smooth"))
+    put["Coupling/Filter shape"] = draw.choice(("top-hat", "parabolic"))
     put["Coupling/Overlap rule"] = draw.choice(("moments", "moments", "centroid"))
     put["Coupling/Drag law"] = draw.choice(("disc", "disc", "sphere", "paper", "Ergun", "Koch-Hill", "Rong", "Tang", "Wen-Yu", "Beetstra", "Gidaspow"))
     put["Coupling/Drag regularisation"] = draw.choice(("floor", "floor", "cap", "penalisation"))

@@ -30,6 +30,7 @@ namespace alluvium::contacts::test
       dealii::ParameterHandler prm;
       stepper.add_parameters(prm);
       prm.parse_input_from_string(text);
+      stepper.parse_parameters();
     }
 
     std::size_t add(const double x, const double y, const double vx = 0., const double vy = 0., const double radius = r)

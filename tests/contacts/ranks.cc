@@ -1,7 +1,7 @@
 // The contact step on several ranks. Run under mpirun on 2, 3 and 4 of them; what needs no messages runs on one as
 // well.
 #include <alluvium/contacts/ranks/contact_partition.h>
-#include <alluvium/contacts/ranks/contact_share.h>
+#include <alluvium/contacts/ranks/contact_subdomain.h>
 #include <alluvium/contacts/ranks/ghost_exchange.h>
 #include <alluvium/contacts/search/contact_colouring.h>
 #include <alluvium/contacts/solvers/contact_problem.h>
@@ -122,7 +122,7 @@ namespace
       const double dt, const int n_steps, const bool messages = true, const std::function<void(int)> &before = [](int) {
       })
     {
-      together.stepper.settings().least_share = 1;
+      together.stepper.settings().least_grains_a_rank = 1;
       together.stepper.set_communicator(MPI_COMM_WORLD);
       for (int step = 0; step < n_steps && !testing::Test::HasFatalFailure(); ++step)
         {
@@ -291,7 +291,7 @@ TEST(Ranks, SharesHaveAllColumns)
   ContactCandidates  pairs     = find_candidates(all, geometry, 0.5 * d);
   const unsigned int n_colours = colour_contacts(all, pairs);
 
-  ContactShare share(MPI_COMM_WORLD);
+  ContactSubdomain share(MPI_COMM_WORLD);
   share.divide(all, loads, pairs, n_colours);
   if (n_ranks() > 1)
     {

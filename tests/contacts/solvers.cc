@@ -1,8 +1,8 @@
 // What contact solvers are made of: sums that do not depend on their order, colours, and how they agree.
 #include <alluvium/contacts/contact_stepper.h>
-#include <alluvium/contacts/solvers/cold_start.h>
 #include <alluvium/contacts/solvers/contact_measure.h>
 #include <alluvium/contacts/solvers/contact_solver.h>
+#include <alluvium/contacts/solvers/hydrostatic_guess.h>
 #include <alluvium/utilities/plugin.h>
 #include <alluvium/utilities/reproducible_sum.h>
 
@@ -38,8 +38,9 @@ namespace
       tolerance.residual          = 1e-4;
       tolerance.max_sweeps        = 400;
       const auto plugin           = make_solver(solver);
-      solutions[rank] = cold ? solve_cold(part.problem, part.places(), {{{0., -1.}}, part.weight}, *plugin, tolerance)
-                             : plugin->solve(part.problem, tolerance);
+      solutions[rank] =
+        cold ? solve_from_hydrostatic_guess(part.problem, part.places(), {{{0., -1.}}, part.weight}, *plugin, tolerance)
+             : plugin->solve(part.problem, tolerance);
     });
   }
 } // namespace
@@ -202,7 +203,7 @@ TEST(Solvers, ColdStart)
   const auto solver           = make_solver("accelerated Gauss-Seidel");
   Heap       plain(40, 60), cold(40, 60);
   solver->solve(plain.problem, tolerance);
-  solve_cold(cold.problem, cold.places(), {{{0., -1.}}, cold.weight}, *solver, tolerance);
+  solve_from_hydrostatic_guess(cold.problem, cold.places(), {{{0., -1.}}, cold.weight}, *solver, tolerance);
   EXPECT_LT(plain.floor_support(), 0.6);
   EXPECT_GT(cold.floor_support(), 0.9);
   EXPECT_LT(cold.floor_support(), 1.1);

@@ -1,6 +1,8 @@
 #pragma once
 
 // Beds of discs for the tests of the coupling: cut out of a settled bed, so that they fill a rectangle from end to end.
+#include "fixtures/boundary_kinds.h"
+
 #include <alluvium/coupling/coupling.h>
 #include <alluvium/deposits/deposit.h>
 
@@ -118,8 +120,6 @@ namespace bed
   class Channel
   {
   public:
-    using Kind = fluid::BoundaryConditions<2>::Kind;
-
     Channel(const double width, const double height, const double h, const Settings &s, const double pressure_below)
       : solver(space)
       , coupling(space, solver)
@@ -145,11 +145,11 @@ namespace bed
         }
       else
         {
-          bc.set(0, {Kind::slip, "left", nullptr});
-          bc.set(1, {Kind::slip, "right", nullptr});
+          bc.set(0, {boundary_kinds::slip, "left", nullptr});
+          bc.set(1, {boundary_kinds::slip, "right", nullptr});
         }
       set_pressure_below(pressure_below);
-      bc.set(3, {Kind::pressure, "top", std::make_shared<Functions::ConstantFunction<2>>(0.)});
+      bc.set(3, {boundary_kinds::pressure, "top", std::make_shared<Functions::ConstantFunction<2>>(0.)});
       settings = s;
       initialize();
     }
@@ -179,7 +179,7 @@ namespace bed
 
     void set_pressure_below(const double p)
     {
-      bc.set(2, {Kind::pressure, "bottom", std::make_shared<Functions::ConstantFunction<2>>(p)});
+      bc.set(2, {boundary_kinds::pressure, "bottom", std::make_shared<Functions::ConstantFunction<2>>(p)});
     }
 
     void initialize()
@@ -202,7 +202,7 @@ namespace bed
       coupling.parse_parameters();
       coupling.settings.filter_radius = settings.filter;
       coupling.settings.shape =
-        settings.smooth ? coupling::OverlapSettings::Shape::smooth : coupling::OverlapSettings::Shape::even;
+        settings.smooth ? coupling::OverlapSettings::Shape::parabolic : coupling::OverlapSettings::Shape::top_hat;
       coupling.settings.rule =
         settings.moments ? coupling::OverlapSettings::Rule::moments : coupling::OverlapSettings::Rule::centroid;
       solver.discretisation.lumped_drag = settings.lumped;

@@ -120,7 +120,8 @@ TEST(Exchange, HydrostaticRest)
       const double rho_g      = 1000. * 9.81;
       const double overburden = 103e3;
       Channel      channel(b.width, b.height, h * b.d, s, overburden + rho_g * b.height);
-      channel.bc.set(3, {Channel::Kind::pressure, "top", std::make_shared<Functions::ConstantFunction<2>>(overburden)});
+      channel.bc.set(3,
+                     {boundary_kinds::pressure, "top", std::make_shared<Functions::ConstantFunction<2>>(overburden)});
       channel.solver.gravity[1] = -9.81;
       channel.solver.choose_datum(channel.bc);
       for (unsigned int k = 0; k < 100; ++k)

@@ -33,7 +33,7 @@ namespace moving_grain
       , grain(dragged_grain(size, v))
     {
       for (unsigned int id = 0; id < 4; ++id)
-        channel.bc.set(id, {bed::Channel::Kind::no_slip, "side " + std::to_string(id), nullptr});
+        channel.bc.set(id, {boundary_kinds::no_slip, "side " + std::to_string(id), nullptr});
       channel.bc.pin(true);
       channel.initialize();
       channel.solver.linear_solver.tolerance = 1e-10;

@@ -82,7 +82,7 @@ namespace
     EXPECT_TRUE(map.cut(g, other));
     EXPECT_GT(map.grain().size(), n);
     using Shape = coupling::OverlapSettings::Shape;
-    other.shape = rule.shape == Shape::even ? Shape::smooth : Shape::even;
+    other.shape = rule.shape == Shape::top_hat ? Shape::parabolic : Shape::top_hat;
     EXPECT_TRUE(map.cut(g, other));
     EXPECT_FALSE(map.cut(g, other));
   }
@@ -163,7 +163,7 @@ namespace
   {
     explicit SlipSpace(const Triangulation<2> &tria)
     {
-      bc.set(0, {fluid::BoundaryConditions<2>::Kind::slip, "walls", nullptr});
+      bc.set(0, {boundary_kinds::slip, "walls", nullptr});
       space.attach(tria);
       space.reinit(bc);
     }
@@ -302,7 +302,8 @@ namespace
           {
             coupling::OverlapSettings rule;
             rule.keep_arms = arms;
-            rule.shape     = smooth ? coupling::OverlapSettings::Shape::smooth : coupling::OverlapSettings::Shape::even;
+            rule.shape =
+              smooth ? coupling::OverlapSettings::Shape::parabolic : coupling::OverlapSettings::Shape::top_hat;
             keeps_what_stands(periodic, rule);
           }
   }
@@ -313,7 +314,7 @@ namespace
     using Shape = coupling::OverlapSettings::Shape;
     for (const std::string mesh : {"uniform", "hanging nodes", "periodic"})
       for (const double h : {4., 1., 0.25})
-        for (const Shape shape : {Shape::even, Shape::smooth})
+        for (const Shape shape : {Shape::top_hat, Shape::parabolic})
           {
             const Bed bed = random_bed(1, 16., 12.);
             Settings  settings;
@@ -367,7 +368,7 @@ namespace
     bed.grains.position[0][0] = first[1][0]; // between two cells
     bed.grains.position[1][0] = 0.5 * (first[0][1] + first[2][1]);
     auto rule                 = channel.coupling.settings;
-    rule.rule                 = coupling::OverlapSettings::Rule::centre;
+    rule.rule                 = coupling::OverlapSettings::Rule::particle_centre;
     map.cut(bed.grains, rule);
     EXPECT_EQ(map.terms().n_pieces(), bed.grains.n() + 1);
     std::vector<double> area(bed.grains.n(), 0.);

@@ -122,8 +122,8 @@ namespace
       , grain(one_grain(0.5 * size, 0.5 * size))
     {
       for (unsigned int id = 0; id < 4; ++id)
-        channel.bc.set(
-          id, {bed::Channel::Kind::velocity, "side " + std::to_string(id), std::make_shared<Shear>(rate, y_0)});
+        channel.bc.set(id,
+                       {boundary_kinds::velocity, "side " + std::to_string(id), std::make_shared<Shear>(rate, y_0)});
       channel.bc.pin(true);
       channel.initialize();
       channel.solver.discretisation.convection = false;

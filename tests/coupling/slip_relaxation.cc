@@ -21,6 +21,14 @@ namespace
   };
   ALLUVIUM_REGISTER_DRAG_LAW(ConstantDrag, "constant (test)", "The same everywhere.")
 
+  /** No net flux of the mixture and no viscous traction: the ends of a homogeneous suspension. */
+  class Natural : public alluvium::fluid::BoundaryKind<2>
+  {
+  public:
+    Velocity    velocity() const override { return Velocity::free; }
+    std::string in_words() const override { return "natural"; }
+  };
+
   /** 4 x 4 discs in each of 3 x 6 cells: every cell alike, so that all fields are uniform. */
   class Suspension
   {
@@ -29,7 +37,7 @@ namespace
       : channel(3. * h, 6. * h, h, settings(scheme, dt, added_mass), 0.)
       , eps(eps)
     {
-      channel.bc.set(2, {bed::Channel::Kind::natural, "bottom", nullptr});
+      channel.bc.set(2, {std::make_shared<Natural>(), "bottom", nullptr});
       channel.initialize();
       auto &g = channel_grains;
       g.resize(12 * 24);

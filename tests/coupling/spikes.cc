@@ -10,9 +10,9 @@ using namespace moving_grain;
 TEST(Spikes, NoneWhereOverlapsAreExact)
 {
   const auto   grain = dragged_grain(Box::size);
-  const double jump  = spike(pressure_ranges(grain, settings(2., 0.), Rule::centre, Form::rate));
+  const double jump  = spike(pressure_ranges(grain, settings(2., 0.), Rule::particle_centre, Form::rate));
   EXPECT_GT(jump, 0.1);
   EXPECT_LT(spike(pressure_ranges(grain, settings(2., 0.), Rule::moments, Form::flux)), 1e-3 * jump);
   EXPECT_LT(spike(pressure_ranges(grain, settings(2., 2.), Rule::moments, Form::flux)), 1e-3 * jump);
-  EXPECT_GT(spike(pressure_ranges(grain, settings(2., 0.), Rule::centre, Form::flux)), 1e-3 * jump);
+  EXPECT_GT(spike(pressure_ranges(grain, settings(2., 0.), Rule::particle_centre, Form::flux)), 1e-3 * jump);
 }

@@ -60,7 +60,7 @@ namespace
       step();
     EXPECT_TRUE(report.steady);
     channel.bc.set(
-      2, {Channel::Kind::pressure, "bottom", std::make_shared<Functions::ConstantFunction<2>>(1.001 * pressure)});
+      2, {boundary_kinds::pressure, "bottom", std::make_shared<Functions::ConstantFunction<2>>(1.001 * pressure)});
     step();
     EXPECT_FALSE(report.steady);
     step();

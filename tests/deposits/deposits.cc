@@ -348,6 +348,7 @@ TEST(Deposits, SettledBedIsReproducibleAndCached)
 TEST(Deposits, SettledBedWithoutACache)
 {
   auto c              = context();
+  c.moves             = false; // there is no wall below the bed, of which moving grains would be warned
   c.directory         = "/tmp/alluvium_no_cache_" + std::to_string(getpid());
   const std::string p = "set Number of grains = 50\n";
   const auto        a = make("settled bed", p + "set Cache folder =\n", c);
@@ -370,6 +371,7 @@ TEST(Deposits, SettledBedWithoutACache)
 TEST(Deposits, SettledBedAndADamagedCache)
 {
   auto c                      = context();
+  c.moves                     = false; // as above
   c.directory                 = "/tmp/alluvium_damaged_cache_" + std::to_string(getpid());
   const std::string     p     = "set Number of grains = 100\n";
   const auto            whole = make("settled bed", p, c);

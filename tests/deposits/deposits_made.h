@@ -20,6 +20,7 @@ namespace alluvium::deposits::test
     auto                     deposit = Registry<Deposit>::entries().at(name).create();
     deposit->add_parameters(prm);
     prm.parse_input_from_string(parameters);
+    deposit->parse_parameters();
     return deposit->make(c);
   }
 

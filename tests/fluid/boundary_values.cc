@@ -1,5 +1,7 @@
 // What boundary conditions hold of the unknowns: which condition wins where several meet, slip along slopes, values
 // that change in time.
+#include "fixtures/boundary_kinds.h"
+
 #include <alluvium/fluid/fluid_space.h>
 #include <alluvium/utilities/user_error.h>
 
@@ -17,7 +19,6 @@ namespace
 {
   using namespace dealii;
   using namespace alluvium::fluid;
-  using Kind = BoundaryConditions<2>::Kind;
 
   const auto zero = std::make_shared<Functions::ZeroFunction<2>>(2);
 
@@ -66,10 +67,10 @@ namespace
 TEST(BoundaryNodes, WhoWinsAtCorners)
 {
   Square s;
-  s.set({{{Kind::no_slip, "left", nullptr},
-          {Kind::slip, "right", nullptr},
-          {Kind::velocity, "bottom", zero},
-          {Kind::pressure, "top", std::make_shared<Functions::ZeroFunction<2>>(1)}}});
+  s.set({{{boundary_kinds::no_slip, "left", nullptr},
+          {boundary_kinds::slip, "right", nullptr},
+          {boundary_kinds::velocity, "bottom", zero},
+          {boundary_kinds::pressure, "top", std::make_shared<Functions::ZeroFunction<2>>(1)}}});
   const auto expect = [&](const double x, const double y, const bool u, const bool v, const bool p, const bool given) {
     const Point<2> at(x, y);
     EXPECT_EQ(s.holds(at, 0), u) << at;
@@ -92,7 +93,7 @@ TEST(BoundaryNodes, SlipAlongASlope)
 {
   const double angle = 0.4;
   Square       s(angle);
-  const auto   slip = BoundaryConditions<2>::Condition{Kind::slip, "side", nullptr};
+  const auto   slip = BoundaryConditions<2>::Condition{boundary_kinds::slip, "side", nullptr};
   s.bc.pin(true);
   s.set({{slip, slip, slip, slip}});
   const Tensor<1, 2> along({std::cos(angle), std::sin(angle)}), across({-std::sin(angle), std::cos(angle)});
@@ -118,10 +119,10 @@ TEST(BoundaryNodes, PressuresThatMeetShareTheNode)
 {
   Square     s;
   const auto p = std::make_shared<Functions::ZeroFunction<2>>(1);
-  s.set({{{Kind::pressure, "left", p},
-          {Kind::slip, "right", nullptr},
-          {Kind::slip, "bottom", nullptr},
-          {Kind::pressure, "top", p}}});
+  s.set({{{boundary_kinds::pressure, "left", p},
+          {boundary_kinds::slip, "right", nullptr},
+          {boundary_kinds::slip, "bottom", nullptr},
+          {boundary_kinds::pressure, "top", p}}});
   // together they weigh the corner once
   double of_corner = 0.;
   for (const types::boundary_id id : {0, 3})
@@ -141,10 +142,10 @@ TEST(BoundaryValues, FollowTime)
     double value(const Point<2> &x, const unsigned int = 0) const override { return (10. + x[0]) * get_time(); }
   };
   Square s;
-  s.set({{{Kind::slip, "left", nullptr},
-          {Kind::slip, "right", nullptr},
-          {Kind::velocity, "bottom", zero},
-          {Kind::pressure, "top", std::make_shared<Rising>()}}});
+  s.set({{{boundary_kinds::slip, "left", nullptr},
+          {boundary_kinds::slip, "right", nullptr},
+          {boundary_kinds::velocity, "bottom", zero},
+          {boundary_kinds::pressure, "top", std::make_shared<Rising>()}}});
   const auto                                &boundary = s.space.boundary();
   const Tensor<1, 2>                         hydrostatic({0., -100.}); // rho g [Pa/m]
   const std::map<types::boundary_id, double> deficits{{3, 0.25}};
@@ -180,6 +181,6 @@ TEST(BoundaryValues, FollowTime)
   public:
     double value(const Point<2> &, const unsigned int = 0) const override { return std::sqrt(-1. - get_time()); }
   };
-  s.bc.set(3, {Kind::pressure, "top", std::make_shared<Broken>()});
+  s.bc.set(3, {boundary_kinds::pressure, "top", std::make_shared<Broken>()});
   EXPECT_THROW(apply(), alluvium::UserError);
 }

@@ -1,3 +1,5 @@
+#include "fixtures/boundary_kinds.h"
+
 #include "fixtures/test_mesh.h"
 
 #include <alluvium/fluid/fluid_space.h>
@@ -25,7 +27,7 @@ namespace
       triangulation = domain.make_triangulation(0.);
       fluid::BoundaryConditions<2> boundary_conditions;
       for (const auto &[boundary, id] : domain.boundary_ids())
-        boundary_conditions.set(id, {fluid::BoundaryConditions<2>::Kind::no_slip, boundary, nullptr});
+        boundary_conditions.set(id, {boundary_kinds::no_slip, boundary, nullptr});
       boundary_conditions.pin(true);
       space = std::make_unique<fluid::FluidSpace<2>>(*triangulation);
       space->reinit(boundary_conditions);

@@ -250,6 +250,21 @@ TEST(GivenVelocity, FacesAreDivided)
 }
 
 
+TEST(GivenVelocity, FormulasThatMayJump)
+{
+  using Conditions    = BoundaryConditions<dim>;
+  const auto may_jump = [](const std::string &text) {
+    return Conditions::Condition{nullptr, "left", nullptr, text}.may_jump();
+  };
+  for (const char *text :
+       {"if(x < 1, 1, 0) | 0", "max(0, x) | 0", "0 | rint(x)", "(x > 1)*2 | 0", "rand_seed(1) | 0", ""})
+    EXPECT_TRUE(may_jump(text)) << text;
+  // words that only begin or end so are names of constants
+  for (const char *text : {"0.1*y*(1 - y) | 0", "u_max*y | 0", "minute*x | 0", "gif | x_int"})
+    EXPECT_FALSE(may_jump(text)) << text;
+}
+
+
 TEST(Expression, SeveralValues)
 {
   const auto error = [](const std::string &text) -> std::string {
@@ -268,6 +283,22 @@ TEST(Expression, SeveralValues)
   EXPECT_NE(error("sin(0,5)").find("a point, not a comma"), std::string::npos);
   for (const char *text : {"max(1, 2)", "if(x < 1, max(2, x), 3)", "H*(1+t)", "max((1+x)*2, 3)"})
     EXPECT_EQ(error(text), "") << text;
+  for (const char *text : {"x=1", "if(x = 1, 2, 3)", "= 1"})
+    EXPECT_NE(error(text).find("write '=='"), std::string::npos) << text;
+  for (const char *text : {"if(x == 1, 2, 3)", "(x <= 1) + (x >= 2) + (x != 3)"})
+    EXPECT_EQ(error(text), "") << text;
   EXPECT_TRUE(mentions("sin(2*pi*t)", "t"));
   EXPECT_FALSE(mentions("sqrt(x) + rho_t", "t"));
+}
+
+
+TEST(Expression, OnlyOurMessageIsPrinted)
+{
+  for (const char *text : {"-", "", "1 +", "foo", "sin()"})
+    {
+      testing::internal::CaptureStderr();
+      EXPECT_THROW(parse_expressions("here", {text}, {}), UserError) << text;
+      std::cerr << "still here";
+      EXPECT_EQ(testing::internal::GetCapturedStderr(), "still here") << text;
+    }
 }

@@ -1,5 +1,7 @@
 // The fluid's linear solver where it is hard: strong convection, the last resort, and equations that nothing solves.
 // two_ranks.cmake runs all of it on 2, 3 and 4 ranks as well.
+#include "fixtures/boundary_kinds.h"
+
 #include <alluvium/fluid/sparse_product.h>
 #include <alluvium/fluid/vans_solver.h>
 #include <alluvium/utilities/divergence.h>
@@ -23,7 +25,6 @@ namespace
     explicit Jet(const MPI_Comm comm = MPI_COMM_WORLD, const unsigned int n = 32, const double dt = 5e-3)
       : tria(comm)
     {
-      using Kind = BoundaryConditions<dim>::Kind;
       struct Inflow : Function<dim>
       {
         Inflow()
@@ -36,9 +37,9 @@ namespace
       };
       GridGenerator::subdivided_hyper_cube(tria, n, 0., 6e-3, true);
       for (const types::boundary_id side : {0, 1})
-        bc.set(side, {Kind::slip, "side", nullptr});
-      bc.set(2, {Kind::velocity, "bottom", std::make_shared<Inflow>()});
-      bc.set(3, {Kind::pressure, "top", std::make_shared<Functions::ConstantFunction<dim>>(0.)});
+        bc.set(side, {boundary_kinds::slip, "side", nullptr});
+      bc.set(2, {boundary_kinds::velocity, "bottom", std::make_shared<Inflow>()});
+      bc.set(3, {boundary_kinds::pressure, "top", std::make_shared<Functions::ConstantFunction<dim>>(0.)});
       space.attach(tria);
       space.reinit(bc);
       solver.reinit();
@@ -102,7 +103,8 @@ namespace
     {
       BlockVector iterate = jet.space.make_field(), old = jet.space.make_field(), known = jet.space.make_field();
       given.update(jet.space, jet.bc, jet.void_fraction);
-      jet.problem.given_fluxes = &given.face_fluxes();
+      jet.problem.boundary_conditions = &jet.bc;
+      jet.problem.given_fluxes        = &given.face_fluxes();
       jet.space.boundary().apply_boundary_values(jet.bc, Tensor<1, dim>(), 0., {}, given.node_values(), iterate);
       for (BlockVector *field : {&iterate, &old, &known})
         field->update_ghost_values();

@@ -1,5 +1,7 @@
 // A manufactured solution of the stationary VANS equations with a varying void fraction: L2(u) converges with order 2,
 // H1(u) with 1, L2(p) with 1.5 or more, on quadrilaterals with hanging nodes and on triangles.
+#include "fixtures/boundary_kinds.h"
+
 #include <alluvium/fluid/cell_order.h>
 #include <alluvium/fluid/vans_solver.h>
 
@@ -108,7 +110,6 @@ namespace
   Errors solve(const Triangulation<dim> &tria, const double gamma, const bool lumped)
   {
     BoundaryConditions<dim> bc;
-    using Kind = BoundaryConditions<dim>::Kind;
     struct Velocity : Function<dim>
     {
       Velocity()
@@ -121,7 +122,7 @@ namespace
       double value(const Point<dim> &x, const unsigned int) const override { return pressure(x); }
     };
     for (const auto id : tria.get_boundary_ids())
-      bc.set(id, {Kind::velocity, "side", std::make_shared<Velocity>()});
+      bc.set(id, {boundary_kinds::velocity, "side", std::make_shared<Velocity>()});
     bc.pin(true);
     bc.give_interstitial_velocity();
 

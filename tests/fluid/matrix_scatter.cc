@@ -1,4 +1,6 @@
 // Cells' matrices that go to addresses found once make the same matrix as those that go through the constraints.
+#include "fixtures/boundary_kinds.h"
+
 #include <alluvium/fluid/matrix_scatter.h>
 
 #include <deal.II/dofs/dof_tools.h>
@@ -30,7 +32,7 @@ namespace
   {
     BoundaryConditions<2> bc;
     for (unsigned int id = 0; id < 4; ++id)
-      bc.set(id, {BoundaryConditions<2>::Kind::no_slip, "side", nullptr});
+      bc.set(id, {boundary_kinds::no_slip, "side", nullptr});
     bc.pin(true);
     FluidSpace<2> space(mesh);
     space.reinit(bc);

@@ -1,147 +1,21 @@
 // Boundaries with a given pressure, against flows that are known exactly, on quadrilaterals, hanging nodes and
 // triangles: streams, pipes and shear go on through them, what comes back brings no energy, and the energy balance
 // closes.
-#include <alluvium/fluid/energy_balance.h>
-#include <alluvium/fluid/vans_solver.h>
+#include "channel.h"
 
-#include <deal.II/base/function_parser.h>
-#include <deal.II/base/parameter_handler.h>
-#include <deal.II/distributed/tria.h>
-#include <deal.II/grid/grid_generator.h>
 #include <deal.II/numerics/vector_tools.h>
-
-#include <gtest/gtest.h>
 
 namespace
 {
-  using namespace dealii;
-  using namespace alluvium::fluid;
-  constexpr int dim = 2;
-  using Kind        = BoundaryConditions<dim>::Kind;
-
-  constexpr double width = 2e-3, length = 1e-2; // of a channel along y [m]
-  constexpr double rho = 1000., eta = 1e-3;
-
-  enum class Mesh
-  {
-    quadrilaterals,
-    hanging_nodes,
-    triangles
-  };
-
-  std::shared_ptr<Function<dim>> function(const std::string &text, const unsigned int n_components)
-  {
-    auto f = std::make_shared<FunctionParser<dim>>(n_components);
-    f->initialize("x,y,t", text, {}, true);
-    return f;
-  }
-
-  /** Fluid alone in a rectangle with a square mesh; ids 0 left, 1 right, 2 bottom, 3 top. */
-  struct Channel
-  {
-    Channel(const Mesh mesh, const double cell, const double w = width, const double l = length)
-    {
-      const std::vector<unsigned int> n = {static_cast<unsigned int>(std::lround(w / cell)),
-                                           static_cast<unsigned int>(std::lround(l / cell))};
-      if (mesh == Mesh::triangles)
-        {
-          Triangulation<dim> quadrilaterals;
-          GridGenerator::subdivided_hyper_rectangle(quadrilaterals, n, Point<dim>(), Point<dim>(w, l), true);
-          GridGenerator::convert_hypercube_to_simplex_mesh(quadrilaterals, serial);
-        }
-      else
-        {
-          GridGenerator::subdivided_hyper_rectangle(serial, n, Point<dim>(), Point<dim>(w, l), true);
-          if (mesh == Mesh::hanging_nodes)
-            {
-              for (const auto &c : serial.active_cell_iterators())
-                if (c->center()[0] < 0.3 * w || (c->center()[1] > 0.4 * l && c->center()[1] < 0.6 * l))
-                  c->set_refine_flag();
-              serial.execute_coarsening_and_refinement();
-            }
-        }
-    }
-
-    void set(const unsigned int id, const Kind kind, const std::string &value = "")
-    {
-      conditions.set(id,
-                     {kind,
-                      "side " + std::to_string(id),
-                      value.empty() ? nullptr : function(value, kind == Kind::pressure ? 1 : dim)});
-    }
-
-    void start()
-    {
-      space.attach(serial);
-      space.reinit(conditions);
-      solver                          = std::make_unique<VansSolver<dim>>(space);
-      solver->properties              = {rho, eta};
-      solver->linear_solver.tolerance = 1e-10;
-      ParameterHandler prm;
-      if (!terms.empty())
-        {
-          solver->add_parameters(prm);
-          prm.enter_subsection("Fluid");
-          prm.set("Open boundary terms", terms);
-        }
-      solver->reinit();
-      eps = space.make_nodal_field();
-      eps = 1.;
-      eps.update_ghost_values();
-      problem.void_fraction = &eps;
-      problem.solid         = &no_solid;
-      conditions.set_time(0.);
-      solver->choose_datum(conditions);
-    }
-
-    void step(const double dt)
-    {
-      problem.dt = dt;
-      time += dt;
-      conditions.set_time(time);
-      solver->accept();
-      solver->begin_step(conditions, problem);
-      solver->solve();
-    }
-
-    /** Largest distance of a velocity component from @p exact(x) [m/s]. */
-    template <typename Exact>
-    double error(const unsigned int component, const Exact &exact) const
-    {
-      double largest = 0.;
-      for (const auto &cell : space.cells())
-        for (unsigned int v = 0; v < space.n_nodes_per_cell(); ++v)
-          largest = std::max(
-            largest,
-            std::abs(solver->solution().block(0).local_element(cell.velocity[v][component]) - exact(cell.vertex[v])));
-      return largest;
-    }
-
-    double largest(const unsigned int component) const
-    {
-      return error(component, [](const Point<dim> &) { return 0.; });
-    }
-
-    EnergyBalance balance() const { return energy_balance(space, solver->problem(), solver->solution()); }
-
-    Triangulation<dim>               serial;
-    BoundaryConditions<dim>          conditions;
-    FluidSpace<dim>                  space;
-    std::unique_ptr<VansSolver<dim>> solver;
-    alluvium::fluid::Vector          eps;
-    InterphaseTerms<dim>             no_solid;
-    VansProblem<dim>                 problem{};
-    double                           time = 0.;
-    std::string                      terms;
-  };
+  using namespace fluid_channel;
 
   /** A channel along y with slip sides and @p pressure below. */
-  void open_ends(Channel &c, const Kind sides, const std::string &pressure)
+  void open_ends(Channel &c, const boundary_kinds::Kind &sides, const std::string &pressure)
   {
     c.set(0, sides);
     c.set(1, sides);
-    c.set(2, Kind::pressure, pressure);
-    c.set(3, Kind::pressure, "0");
+    c.set(2, boundary_kinds::pressure, pressure);
+    c.set(3, boundary_kinds::pressure, "0");
     c.start();
   }
 
@@ -150,7 +24,7 @@ namespace
   /** Plane Poiseuille flow between open ends, from rest until nothing changes. */
   void become_pipe(Channel &c)
   {
-    open_ends(c, Kind::no_slip, "1");
+    open_ends(c, boundary_kinds::no_slip, "1");
     for (unsigned int n = 0; n < 100; ++n)
       c.step(0.2);
   }
@@ -173,9 +47,9 @@ void expect_uniform_stream(const Mesh mesh, const double cell)
 {
   const double allowed = 1e-6;
   Channel      c(mesh, cell);
-  open_ends(c, Kind::slip, "10000");
+  open_ends(c, boundary_kinds::slip, "10000");
   c.solver->linear_solver.tolerance = 1e-13; // what solves leave adds up over the steps
-  const double dt = 1e-4;
+  const double dt                   = 1e-4;
   for (unsigned int n = 0; n < 1000; ++n)
     {
       c.step(dt);
@@ -206,7 +80,7 @@ TEST_P(OpenBoundaries, UniformStreamFromAboveInOtherSteps)
   for (const double dt : {1e-2, 1e-3})
     {
       Channel c(GetParam(), 1e-3);
-      open_ends(c, Kind::slip, "-10");
+      open_ends(c, boundary_kinds::slip, "-10");
       for (unsigned int n = 0; n < 1000; ++n)
         c.step(dt);
       EXPECT_LT(c.error(1, [&](const Point<dim> &) { return -c.time; }), 1e-6 * c.time) << "steps of " << dt << " s";
@@ -219,7 +93,7 @@ TEST(OpenBoundary, NeedTheirTerms)
 {
   Channel c(Mesh::quadrilaterals, 0.5e-3);
   c.terms = "none";
-  open_ends(c, Kind::slip, "10");
+  open_ends(c, boundary_kinds::slip, "10");
   for (unsigned int n = 0; n < 300; ++n)
     c.step(1e-3);
   EXPECT_GT(c.error(1, [&](const Point<dim> &) { return c.time; }), c.time);
@@ -234,7 +108,7 @@ TEST_P(OpenBoundaries, TotalPressure)
   c.conditions.add_parameters(prm);
   prm.enter_subsection("Boundary conditions");
   prm.set("Pressure on inflow", "total");
-  open_ends(c, Kind::slip, "10");
+  open_ends(c, boundary_kinds::slip, "10");
   for (unsigned int n = 0; n < 500; ++n)
     c.step(2e-3);
   const double u = std::sqrt(2. * 10. / rho);
@@ -276,10 +150,10 @@ TEST_P(OpenBoundaries, Couette)
 {
   const double lid = 0.05;
   Channel      c(GetParam(), 0.5e-3);
-  c.set(0, Kind::no_slip);
-  c.set(1, Kind::velocity, "0; 0.05");
-  c.set(2, Kind::pressure, "0");
-  c.set(3, Kind::pressure, "0");
+  c.set(0, boundary_kinds::no_slip);
+  c.set(1, boundary_kinds::velocity, "0; 0.05");
+  c.set(2, boundary_kinds::pressure, "0");
+  c.set(3, boundary_kinds::pressure, "0");
   c.start();
   for (unsigned int n = 0; n < 100; ++n)
     c.step(0.5);
@@ -293,10 +167,10 @@ TEST_P(OpenBoundaries, VortexLeaves)
 {
   const double stream = 0.1, cell = GetParam() == Mesh::quadrilaterals ? 0.5e-3 : 1e-3, w = 0.02;
   Channel      c(GetParam(), cell, w, w);
-  c.set(0, Kind::slip);
-  c.set(1, Kind::slip);
-  c.set(2, Kind::velocity, "0; 0.1");
-  c.set(3, Kind::pressure, "0");
+  c.set(0, boundary_kinds::slip);
+  c.set(1, boundary_kinds::slip);
+  c.set(2, boundary_kinds::velocity, "0; 0.1");
+  c.set(3, boundary_kinds::pressure, "0");
   c.start();
   // turning at up to 2.1 times the stream, so that there is backflow while it leaves
   const std::string   swirl = "exp(-((x-0.01)^2+(y-0.012)^2)/(2*0.002^2))/0.002*0.35";
@@ -317,7 +191,7 @@ TEST_P(OpenBoundaries, VortexLeaves)
           exchanged += b.largest();
         }
       before = b.kinetic_energy;
-      for (const auto &face : c.space.boundary().open_faces())
+      for (const auto &face : c.space.boundary().faces())
         for (unsigned int v = 0; v < c.space.n_nodes_per_cell(); ++v)
           backflow =
             std::max(backflow, -c.solver->solution().block(0).local_element(c.space.cells()[face.cell].velocity[v][1]));
@@ -332,7 +206,7 @@ TEST_P(OpenBoundaries, VortexLeaves)
 TEST_P(OpenBoundaries, EnergyOfAStream)
 {
   Channel c(GetParam(), 0.5e-3);
-  open_ends(c, Kind::slip, "10");
+  open_ends(c, boundary_kinds::slip, "10");
   const double dt = 1e-3;
   for (unsigned int n = 0; n < 100; ++n)
     c.step(dt);
@@ -359,8 +233,4 @@ TEST(OpenBoundary, EnergyOfAPipe)
 INSTANTIATE_TEST_SUITE_P(Meshes,
                          OpenBoundaries,
                          testing::Values(Mesh::quadrilaterals, Mesh::hanging_nodes, Mesh::triangles),
-                         [](const auto &info) {
-                           return info.param == Mesh::quadrilaterals  ? "Quadrilaterals"
-                                  : info.param == Mesh::hanging_nodes ? "HangingNodes"
-                                                                      : "Triangles";
-                         });
+                         name_of);

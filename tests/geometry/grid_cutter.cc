@@ -157,7 +157,7 @@ namespace
   {
     const RectangleGrid grid(cells);
     ASSERT_FALSE(grid.empty());
-    GridCutter cutter(grid, cells, DiscWeight::even), smooth_cutter(grid, cells, DiscWeight::smooth);
+    GridCutter cutter(grid, cells, DiscWeight::top_hat), smooth_cutter(grid, cells, DiscWeight::parabolic);
     Rng        rng(11);
     for (const double ratio : {8., 4., 2., 1., 0.5, 0.25})
       {
@@ -222,7 +222,7 @@ TEST(GridCutter, CutsWhatIsWanted)
 {
   const Mesh          mesh(Shape::squares, 8, 1.);
   const RectangleGrid grid(mesh.cells);
-  for (const DiscWeight weight : {DiscWeight::even, DiscWeight::smooth})
+  for (const DiscWeight weight : {DiscWeight::top_hat, DiscWeight::parabolic})
     {
       GridCutter             cutter(grid, mesh.cells, weight);
       std::vector<GridPiece> all, some;

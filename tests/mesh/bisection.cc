@@ -10,9 +10,9 @@ namespace
   using namespace alluvium::mesh;
 
   /** A box of @p nx by @p ny square cells, of which the lower half have @p n_near grains near them. */
-  std::vector<CellToDeal> half_filled_box(const unsigned int nx, const unsigned int ny, const double n_near)
+  std::vector<BisectedCell> half_filled_box(const unsigned int nx, const unsigned int ny, const double n_near)
   {
-    std::vector<CellToDeal> cells;
+    std::vector<BisectedCell> cells;
     for (unsigned int j = 0; j < ny; ++j)
       for (unsigned int i = 0; i < nx; ++i)
         cells.push_back({{i + 0.5, j + 0.5}, 2 * j < ny ? n_near : 0.});
@@ -24,7 +24,7 @@ namespace
     std::vector<double> n_cells, n_near;
   };
 
-  Share share_of(const std::vector<CellToDeal> &cells, const unsigned int n_parts)
+  Share share_of(const std::vector<BisectedCell> &cells, const unsigned int n_parts)
   {
     const auto part = bisect(cells, n_parts);
     Share      share{std::vector<double>(n_parts), std::vector<double>(n_parts)};

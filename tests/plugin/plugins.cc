@@ -1,4 +1,7 @@
-// Plug-ins that only this library knows, for tests: what somebody has who brings their own.
+// Plug-ins that only this library knows, for tests: what somebody has who brings their own. One more, a kind of boundary
+// condition, is in fixtures/leaky_wall.h.
+#include "fixtures/leaky_wall.h"
+
 #include <alluvium/coupling/drag_law.h>
 #include <alluvium/fluid/boundary_plugin.h>
 

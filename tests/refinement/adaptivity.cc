@@ -464,6 +464,49 @@ namespace
     EXPECT_LE(report.n_cells, std::stoul(n));
   }
 
+  TEST(Adaptivity, CellsAreCountedBeforeTheyAreMade)
+  {
+    const auto context = context_of(make_bed(d, 0.25, 0.5));
+    const auto count   = [&](const Parameters &parameters) {
+      ParameterHandler prm;
+      Domain<2>        domain;
+      Adaptivity<2>    adaptivity;
+      set_parameters(adaptivity, prm, parameters);
+      domain.initialize(MPI_COMM_WORLD, "");
+      const auto mesh = domain.make_triangulation(adaptivity.coarse_size(context));
+      const auto n    = domain.n_cells_of_rectangle(adaptivity.coarse_size(context));
+      EXPECT_EQ(n[0] * n[1], mesh->n_global_active_cells());
+      std::vector<CellCorners<2>> cells;
+      for (const auto &cell : mesh->active_cell_iterators())
+        if (cell->is_locally_owned())
+          cells.push_back({{cell->vertex(0), cell->vertex(1), cell->vertex(2), cell->vertex(3)}});
+      const double mine = adaptivity.expected_cells(cells, 1., context);
+      return Utilities::MPI::sum(mine, mesh->get_communicator());
+    };
+    const Parameters uniform = {{"Mesh refinement/Criteria", "uniform, bed faces"},
+                                {"Mesh refinement/Criteria: uniform/Cell size", "0.5"}};
+    EXPECT_NEAR(count(uniform) / Scene(uniform, context).report.n_cells, 1., 1e-12); // weights are quotients
+    // neighbours that differ by one level only add some; from here on not all cells are looked at
+    for (const char *size : {"1", "0.25"})
+      {
+        const Parameters faces = {{"Mesh refinement/Criteria: bed faces/Cell size at the top", size},
+                                  {"Mesh refinement/Criteria: bed faces/Half width", "4"}};
+        const double     n     = Scene(faces, context).report.n_cells;
+        EXPECT_NEAR(count(faces) / n, 1., 0.05) << size;
+      }
+    const Parameters function = {{"Mesh refinement/Criteria", "function"},
+                                 {"Mesh refinement/Criteria: function/Cell size", "if(x < 0.3, 0.25, 4)"}};
+    EXPECT_NEAR(count(function) / Scene(function, context).report.n_cells, 1., 0.05);
+
+    // more than could ever be made
+    const Parameters hopeless = {{"Mesh refinement/Criteria", "function"},
+                                 {"Mesh refinement/Finest cell size", "0.001"},
+                                 {"Mesh refinement/Max levels", "25"},
+                                 {"Mesh refinement/Criteria: function/Cell size", "if(x < 1e-9, 4, 0.001)"}};
+    EXPECT_NEAR(count(hopeless) / std::pow(64e3, 2), 1.05, 0.05); // halves of halves: 2^16 along a side
+    EXPECT_TRUE(contains(error_of([&] { Scene(hopeless, context); }), "ask for about 4.3e+09 cells"));
+  }
+
   TEST(Adaptivity, TrianglesStayAsTheyAre)
   {
     ParameterHandler prm, other_prm;

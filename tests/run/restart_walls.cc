@@ -19,7 +19,8 @@ namespace
     if (vx != 0. || spin != 0.)
       {
         grains::WallMotion motion;
-        motion.phases.push_back({{{vx, 0., spin}}, -grains::WallMotion::for_ever, grains::WallMotion::for_ever, {}});
+        motion.phases.push_back(
+          {{{vx, 0., spin}}, -grains::WallMotion::for_ever, grains::WallMotion::for_ever, {}, ""});
         result.motion = std::make_shared<const grains::WallMotion>(motion);
         result.centre = {{x, 0.}};
       }

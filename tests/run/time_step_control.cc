@@ -1,5 +1,6 @@
 #include <alluvium/run/kinks.h>
 #include <alluvium/run/pi_controller.h>
+#include <alluvium/run/poles.h>
 
 #include <gtest/gtest.h>
 
@@ -121,4 +122,56 @@ TEST(Kinks, AbsoluteValueAndSquarePulses)
   ASSERT_EQ(pulse.size(), 2u);
   EXPECT_NEAR(pulse[0], 0.3, 1e-12);
   EXPECT_NEAR(pulse[1], 0.301, 1e-12);
+}
+
+
+namespace
+{
+  std::vector<double> even_times(const double end, const unsigned int n)
+  {
+    std::vector<double> times;
+    for (unsigned int i = 0; i <= n; ++i)
+      times.push_back(i * end / n);
+    return times;
+  }
+} // namespace
+
+TEST(Poles, AreFoundBetweenTheTimesThatAreLookedAt)
+{
+  using Function                                          = std::function<double(double)>;
+  const std::vector<std::pair<Function, double>> with_one = {
+    {[](const double t) { return 1. / (0.01234567 - t); }, 0.01234567},
+    {[](const double t) { return 3. + 1e-3 / (t - 0.0100001); }, 0.0100001},
+    {[](const double t) { return 1. / ((t - 0.0123) * (t - 0.0123)); }, 0.0123}, // at a time that is looked at, about
+    {[](const double t) { return std::tan(M_PI / 2. * t / 0.0171); }, 0.0171},
+    {[](const double t) { return 1. / std::sqrt(std::abs(t - M_PI / 300.)); }, M_PI / 300.},
+    {[](const double t) { return 1. / t; }, 0.},
+    {[](const double t) { return 1. / (0.02 - t); }, 0.02},
+    {[](const double t) { return std::sqrt(0.015 - t); }, 0.015},
+  };
+  for (const unsigned int n : {20u, 1000u})
+    for (std::size_t i = 0; i < with_one.size(); ++i)
+      {
+        const auto pole = find_pole(with_one[i].first, even_times(0.02, n));
+        ASSERT_TRUE(pole) << i << " with " << n;
+        EXPECT_NEAR(pole->time, with_one[i].second, 1.001 * 0.02 / n) << i << " with " << n;
+      }
+}
+
+TEST(Poles, AreNotSeenWhereThereAreNone)
+{
+  using Function                      = std::function<double(double)>;
+  const std::vector<Function> without = {
+    [](const double) { return 0.; },
+    [](const double t) { return t < 0.0101 ? 0. : 1e6; },                              // a jump
+    [](const double t) { return std::exp(-std::pow((t - 0.0101) / 1e-7, 2)); },        // a pulse that is hardly seen
+    [](const double t) { return 1. / ((t - 0.0101) * (t - 0.0101) + 1e-12); },         // near to a pole
+    [](const double t) { return 1. / (0.0200001 - t); },                               // after the end
+    [](const double t) { return std::sin(1e5 * t) + std::abs(std::sin(3e3 * t)); },    // many peaks and kinks
+    [](const double t) { return std::exp(1e3 * t); },                                  // steep
+    [](const double t) { return std::fmod(43758.5453 * std::sin(1e7 * t + 12.), 1.); } // noise
+  };
+  for (const unsigned int n : {20u, 1000u})
+    for (std::size_t i = 0; i < without.size(); ++i)
+      EXPECT_FALSE(find_pole(without[i], even_times(0.02, n))) << i << " with " << n;
 }

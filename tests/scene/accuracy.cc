@@ -55,7 +55,7 @@ namespace
     /** Read a scene that sets these, and nothing else. */
     std::vector<std::string> read(const std::vector<std::string> &assignments)
     {
-      return read_parameters(prm, "", assignments, {{"Coupling/Filter radius", "grain"}});
+      return read_parameters(prm, "", assignments, {{"Coupling/Filter radius", "grain"}}).choices;
     }
 
     std::string value(const std::string &name) const

@@ -30,6 +30,7 @@ namespace
       prm.enter_subsection("Fluid");
       prm.add_parameter("Density", density, "Density [kg/m^3].", dealii::Patterns::Double(0));
       prm.add_parameter("Viscosity", viscosity, "Dynamic viscosity [Pa s].", dealii::Patterns::Double(0));
+      prm.declare_alias("Viscosity", "Stickiness");
       prm.enter_subsection("Solver: gmres");
       prm.add_parameter("Iterations", iterations, "At most so many.", dealii::Patterns::Integer(1, 500));
       prm.leave_subsection();
@@ -55,10 +56,19 @@ namespace
       return file.string();
     }
 
-    void read(const std::string &text, const std::vector<std::string> &assignments = {})
+    std::vector<std::string> read(const std::string &text, const std::vector<std::string> &assignments = {})
     {
-      read_parameters(
-        prm, write("scene.prm", text), assignments, {{"Grains/Drag law", "paper"}, {"Grains/Radius", "7"}});
+      return read_parameters(
+               prm, write("scene.prm", text), assignments, {{"Grains/Drag law", "paper"}, {"Grains/Radius", "7"}})
+        .warnings;
+    }
+
+    std::string without_folder(std::string message) const
+    {
+      const std::string name = folder.string() + "/";
+      for (auto at = message.find(name); at != std::string::npos; at = message.find(name))
+        message.erase(at, name.size());
+      return message;
     }
 
     /** The message of the error, without the folder. */
@@ -70,11 +80,7 @@ namespace
         }
       catch (const UserError &user_error)
         {
-          std::string       message = user_error.what();
-          const std::string name    = folder.string() + "/";
-          for (auto at = message.find(name); at != std::string::npos; at = message.find(name))
-            message.erase(at, name.size());
-          return message;
+          return without_folder(user_error.what());
         }
       return "no error";
     }
@@ -136,6 +142,34 @@ TEST_F(ParameterFile, IncludesFilesBesideTheIncludingOne)
   write("parts/closes.prm", "end\n");
   EXPECT_EQ(error("subsection Fluid\ninclude parts/closes.prm"),
             "parts/closes.prm:1: there is no open subsection for this 'end' to close.");
+}
+
+TEST_F(ParameterFile, SettingTwiceInOneFileIsSaid)
+{
+  const auto warnings = read("subsection Fluid\n set Density = 1\nend\nsubsection Fluid\n set Density = 2\nend\n");
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(without_folder(warnings[0]),
+            "scene.prm:5: parameter 'Fluid/Density' is set twice in this file: '2' overrides the '1' of line 2. Delete "
+            "one of the lines.");
+  EXPECT_EQ(density, 2.);
+
+  // an old name is the same parameter
+  const auto renamed = read("subsection Fluid\nset Stickiness = 1\nset Viscosity = 2\nend\n");
+  ASSERT_EQ(renamed.size(), 1u);
+  EXPECT_EQ(
+    without_folder(renamed[0]),
+    "scene.prm:3: parameter 'Fluid/Viscosity' is set twice in this file: '2' overrides the '1' of line 2, where "
+    "it is called 'Stickiness'. Delete one of the lines.");
+  EXPECT_EQ(viscosity, 2.);
+
+  // what an included file says is there to be overridden, as by the command line; and a file may be included twice
+  write("base.prm", "subsection Fluid\n set Density = 1\nend\n");
+  EXPECT_TRUE(read("include base.prm\nsubsection Fluid\n set Density = 2\nend\n", {"Fluid/Density=3"}).empty());
+  EXPECT_EQ(density, 3.);
+  EXPECT_TRUE(read("include base.prm\ninclude base.prm\n").empty());
+  EXPECT_TRUE(read("set Title = a\nsubsection Fluid\n set Density = 1\nend\n").empty());
+  // but not by the including file twice
+  EXPECT_EQ(read("set Title = a\ninclude base.prm\nset Title = b\n").size(), 1u);
 }
 
 TEST_F(ParameterFile, FileErrors)
@@ -267,4 +301,16 @@ TEST_F(ParameterFile, OldNamesStillWork)
   read("subsection Fluid\n  set Rho = 3\nend\n");
   EXPECT_EQ(density, 3.);
   EXPECT_NE(error("subsection Fluid\n  set Rho = x\nend\n").find("scene.prm:2"), std::string::npos);
+}
+
+TEST_F(ParameterFile, NumbersBeyondAllSizesAreRefused)
+{
+  for (const char *value : {"1e300", "1e31", "1e-31"})
+    EXPECT_EQ(error(std::string("subsection Fluid\n set Density = ") + value + "\nend"),
+              std::string("scene.prm:2: parameter 'Fluid/Density' cannot be '") + value +
+                "': expected a number >= 0, of a size from 1e-30 to 1e30 if it is not 0.");
+  EXPECT_NE(error("subsection Grains\n set Gravity = 0, -1e300\nend").find("of a size from"), std::string::npos);
+  EXPECT_EQ(error("subsection Fluid\n set Density = 0\nend"), "no error");
+  EXPECT_EQ(error("subsection Fluid\n set Density = 1e30\nend"), "no error");
+  EXPECT_EQ(error("set Title = 1e300"), "no error");
 }

@@ -39,20 +39,39 @@ done
 # A time step above the limit of a scheme that has one: 2 eps^2 (1 - r) tau_p, r = (1 - eps)/(eps s); none in a bed of r > 1
 limit_of() { # ARGUMENTS...
   must_run 1 --check "$@"
-  grep -o 'unstable with it at .*time step.*, 2 eps\|unstable with it at any time step' error-output || true
+  grep -oE 'Time scheme = .*: the time step .*|Time scheme = .*: it is unstable at any time step at void fraction .*' error-output || true
 }
 suspension=("$SCENES/suspension.prm" --set 'Coupling/Time scheme=explicit')
 found=$(limit_of "${suspension[@]}" --set 'Time/Time step=0.01')
 /usr/bin/python3 - "$found" "$(number 'suspension of void fraction ([0-9.e-]+)')" "$(number 'tau_p [(]([0-9.e-]+) s')" <<'END' || fail "limit of the time step: '$found'"
 import re, sys
-eps, tau_p = map(float, sys.argv[2:])
-limit = 2 * eps**2 * (1 - (1 - eps) / eps / 2.63) * tau_p
-assert abs(float(re.search(r"above ([0-9.e-]+) s", sys.argv[1])[1]) / limit - 1) < 0.05, limit
+mean, tau_p = map(float, sys.argv[2:])
+number = lambda text: float(re.search(text, sys.argv[1])[1])
+assert sys.argv[1].startswith("Time scheme = explicit: the time step of 0.01 s is "), sys.argv[1]
+eps = number("at void fraction ([0-9.]+), that of the densest tenth")
+assert 0.8 * mean < eps < mean, (eps, mean)
+limit = 2 * eps**2 * (1 - (1 - eps) / eps / 2.63) * tau_p * (eps / mean)**2.8
+assert abs(number("s is ([0-9.e+-]+) times its limit") / (0.01 / limit) - 1) < 0.08, limit
+assert abs(number("use iterated, .*, or Time/Time step <= ([0-9.e-]+) [(]at t = 0 s") / limit - 1) < 0.08, limit
 END
 [ -z "$(limit_of "${suspension[@]}" --set 'Time/Time step=0.001')" ] || fail "a warning of a time step that is stable"
 [ -z "$(limit_of "$SCENES/suspension.prm" --set 'Time/Time step=0.01')" ] || fail "a warning of a scheme without a limit"
-[ "$(limit_of bed.prm --set 'Coupling/Time scheme=implicit drag' --set 'Grains/Fluid packing fraction=0')" = \
-  'unstable with it at any time step' ] || fail "no warning of a bed that has no stable time step"
+limit_of bed.prm --set 'Coupling/Time scheme=implicit drag' --set 'Grains/Fluid packing fraction=0' |
+  grep -qE 'at void fraction 0\.[12][0-9]*, that of the densest tenth of the grains, since this is below 1/\(1 \+ s\) = 0\.28 .*use iterated, which has no such limit' ||
+  fail "no warning of a bed that has no stable time step"
+
+# Grains that settle come to lie so dense that a step that was stable is so no longer: the run says so before it diverges.
+[ -z "$(limit_of "$SCENES/suspension.prm" --set 'Coupling/Time scheme=implicit drag' --set 'Time/Time step=0.001')" ] || fail "stable at first"
+alluvium 1 "$SCENES/suspension.prm" --set 'Coupling/Time scheme=implicit drag' --set 'Time/Time step=0.001' --set 'Time/End time=0.3' --set 'Output/Interval of pictures=0'
+[ $? -eq 3 ] || fail "it should have diverged"
+/usr/bin/python3 - <<'END' || fail "no warning of a step that has become too long"
+import json, re
+summary = json.load(open("output/summary.json"))
+said = [w for w in summary["warnings"] if "times its limit of stability" in w]
+assert len(said) == 1, summary["warnings"]
+factor, first = float(re.search(r"s is ([0-9.]+) times", said[0])[1]), float(re.search(r"first at t = ([0-9.e-]+) s", said[0])[1])
+assert 1 <= factor and 0 < first < summary["time_s"], said
+END
 
 # What touches nothing is no bed, and has no critical gradient; held where it is, it is one to the fluid.
 must_run 1 --check "$SCENES/suspension.prm"

@@ -32,3 +32,37 @@ python3 -c "import sys; sys.exit(not abs($flux / (1000 * 0.5 * 0.005**3 / (3 * 0
 
 must_fail "Mean pressure gradient: y is no periodic direction" 1 layer.prm --set 'Output/Overwrite output folder=true' --set 'Fluid/Mean pressure gradient=0 | 3'
 must_fail "Body force: .* several values" 1 layer.prm --set 'Output/Overwrite output folder=true' --set 'Fluid/Body force=0,5 | 0'
+
+# without boundaries nothing holds the fluid: u = g t, and nothing is wrong with that
+cat >box.prm <<'END'
+set Gravity = 9.81, 0
+subsection Time
+  set End time  = 0.1
+  set Time step = 1e-3
+end
+subsection Domain
+  set Upper right corner  = 0.01, 0.01
+  set Periodic directions = x, y
+  set Coarse cell size    = 1e-3
+end
+subsection Boundary conditions
+  set Pin pressure = true
+end
+subsection Grains
+  set Deposit = none
+end
+subsection Output
+  set Interval of pictures    = 0
+  set Overwrite output folder = true
+end
+END
+for viscosity in 1e-3 10; do
+  must_run 1 box.prm --set "Fluid/Viscosity=$viscosity"
+  must_be 0.981 1e-7 'free fall'
+  [ ! -s error-output ] || fail "a warning without a reason"
+done
+# nor is there a pressure between a lid that moves and a floor; in the end all terms but friction vanish
+must_run 1 box.prm --set Gravity=0,0 --set 'Domain/Periodic directions=x' --set 'Time/End time=1' --set 'Time/Time step=1e-2' \
+  --set 'Fluid/Viscosity=1' --set 'Boundary conditions/No-slip walls=bottom' --set 'Boundary conditions/Velocity=top: 0.1 | 0'
+must_be 0.1 1e-7 'Couette flow'
+[ ! -s error-output ] || fail "a warning without a reason"

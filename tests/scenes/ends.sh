@@ -36,6 +36,14 @@ must_run 1 bed.prm --set 'Time/End time=0.004' --set 'Time/Time step=0.002' --se
 ended $'time_s = ^0.004$'
 rm -rf output
 
+# A step that is longer than the run is as long as the run, before anything is tried with it.
+for step in 0.001 1000; do
+  must_run 1 bed.prm --set 'Time/End time=0.001' --set "Time/Time step=$step" --set "Output/Output folder=output-$step"
+done
+must_agree output-0.001/statistics.csv output-1000/statistics.csv --tolerance 0
+must_run 1 bed.prm --set 'Time/End time=0.001' --set 'Time/Time step=auto' --set 'Time/Automatic time step/Largest time step=1000'
+rm -rf output output-0.001 output-1000
+
 # A grain leaves the domain, some steps after the start, as the floor gives way under it: the mistake of a user.
 printf 'x,y,radius\n0.001,0.00015,0.0001\n0.002,0.004,0.0001\n' >two.csv
 for ranks in 1 2; do

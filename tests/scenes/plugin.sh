@@ -1,6 +1,6 @@
 #!/bin/bash
 # Plug-ins from a shared library (tests/plugin/plugins.cc) that the scene names: a drag law whose flux follows its parameter, boundary
-# conditions that do what a formula does, with --check, --print-parameters, on two ranks, in a restart and from the
+# conditions that do what a formula does, a new kind of them, with --check, --print-parameters, on two ranks, in a restart and from the
 # parameters.prm of the run; and what is said of libraries that are no good.
 # SLOW
 . "$SCENES/functions"
@@ -62,6 +62,29 @@ must_run 1 ../scene/bed.prm "${conditions[@]}" --set 'Boundary conditions/Veloci
 must_run 1 ../scene/bed.prm "${conditions[@]}" --set 'Boundary conditions/Plug-ins=bottom: suction' \
   --set 'Boundary conditions/Plug-ins: suction/Velocity=1e-5' --set 'Output/Output folder=v-plug-in'
 must_agree v-formula/statistics.csv v-plug-in/statistics.csv --ignore flux_imbalance
+
+# a kind of boundary condition that the program does not have: a wall with pores above the bed, whose resistance adds to the bed's
+pressed=(--set 'Coupling/Drag law: linear/Resistance=2e7' --set Output/Observers=flux)
+leaky=("${pressed[@]}" --set 'Boundary conditions/Pressure=bottom: rho*g*H + 1' --set 'Boundary conditions/Leaky walls=top: 1e-5 | 0')
+must_run 1 ../scene/bed.prm --check "${leaky[@]}"
+grep -q 'top: leaky 1e-5 | 0, a wall' screen-output || fail "--check does not know the kind"
+for ranks in 1 2; do
+  must_run $ranks ../scene/bed.prm "${leaky[@]}" --set "Output/Output folder=leaky-$ranks"
+done
+must_agree leaky-1/statistics.csv leaky-2/statistics.csv --ignore flux_imbalance
+must_run 1 ../scene/bed.prm "${pressed[@]}" --set 'Boundary conditions/Pressure=top: 0; bottom: rho*g*H + 1' --set 'Output/Output folder=open'
+/usr/bin/python3 - <<'END' || fail "the flux through the wall is not what its conductance says"
+import csv, json
+flux = lambda folder: json.load(open(folder + "/summary.json"))["flux"]["top_m2_per_s"]
+pressure, width, conductance = 1, 0.004, 1e-5
+of_bed, of_both = flux("open"), flux("leaky-1")
+expected = pressure / (pressure / of_bed + 1 / (conductance * width))
+imbalance = float(list(csv.DictReader(open("leaky-1/statistics.csv")))[-1]["flux_imbalance"])
+print("flux %g m^2/s through the bed, %g through bed and wall, expected %g, imbalance %g" % (of_bed, of_both, expected, imbalance))
+assert 0.2 * of_bed < of_both < 0.8 * of_bed and abs(of_both / expected - 1) < 1e-3 and abs(imbalance) < 1e-8
+END
+must_fail "Boundary conditions/Leaky walls: boundary 'top': '-1 . 0' is -1 at .*; expected a conductance of at least 0" 1 ../scene/bed.prm \
+  "${leaky[@]}" --set 'Boundary conditions/Leaky walls=top: -1 | 0' --check
 
 # a restart, also from parameters.prm beside the scene (its grains' file is relative); the library keeps its place
 must_run 1 ../scene/bed.prm "${conditions[@]}" "${rising[@]}" --set 'Output/Output folder=half' --set 'Time/End time=0.8'

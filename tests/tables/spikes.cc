@@ -23,9 +23,9 @@ TEST(SpikesTable, Table)
           return found;
         };
         const double filtered = show(2., Rule::moments, Form::flux), exact = show(0., Rule::moments, Form::flux);
-        show(0., Rule::centre, Form::flux);
+        show(0., Rule::particle_centre, Form::flux);
         show(0., Rule::moments, Form::rate);
-        const double jump = show(0., Rule::centre, Form::rate);
+        const double jump = show(0., Rule::particle_centre, Form::rate);
         std::printf("\n");
         EXPECT_LT(filtered, 1e-3 * jump) << "h/d " << h;
         EXPECT_LT(exact, 1e-2 * jump) << "h/d " << h;
@@ -45,6 +45,6 @@ TEST(SpikesTable, Series)
   print("exact overlap with R = 2 d", 2., Rule::moments, Form::flux);
   print("exact overlap with R = r", 0., Rule::moments, Form::flux);
   print("exact overlap with the rate of eps", 0., Rule::moments, Form::rate);
-  print("centre", 0., Rule::centre, Form::flux);
-  print("centre with the rate of eps", 0., Rule::centre, Form::rate);
+  print("centre", 0., Rule::particle_centre, Form::flux);
+  print("centre with the rate of eps", 0., Rule::particle_centre, Form::rate);
 }

@@ -1,8 +1,10 @@
+#include <alluvium/utilities/input_files.h>
 #include <alluvium/utilities/text_file.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -70,4 +72,18 @@ TEST(TextFile, OtherThings)
       {
         EXPECT_STREQ(error.what(), what);
       }
+}
+
+TEST(TextFile, ChecksumIsKeptFromTheFirstReading)
+{
+  const std::string file = "/tmp/alluvium_checksum_" + std::to_string(getpid());
+  std::ofstream(file, std::ios::binary) << "\xEF\xBB\xBFx,y\n1,2\n";
+  const std::string digest = digest_of_file(file);
+  read_text_file(file, "table");
+  std::filesystem::remove(file);
+  const auto noted = std::find_if(
+    noted_inputs().begin(), noted_inputs().end(), [&](const InputFile &input) { return input.path == file; });
+  ASSERT_NE(noted, noted_inputs().end());
+  EXPECT_EQ(noted->digest, digest);
+  EXPECT_FALSE(digest.empty());
 }

@@ -7,24 +7,14 @@ r = (1 - eps) rho / (eps rho_p): theory for schemes whose continuity equation se
 """
 import math
 
-from laboratory.study import Map, Missing, Point
+from laboratory.lattice import bound_of, files, growth, largest, settings
+from laboratory.study import Map, Point
 
 order = 10
 scene = "suspension.prm"
 measure_failed = True
 
-d, rho, rho_p, eta = 5e-5, 1000.0, 2630.0, 1e-3
 schemes = ["explicit", "implicit drag", "semi-implicit per piece", "semi-implicit per grain", "iterated"]
-
-
-def tau(eps):
-    """Relaxation time of a disc by the law 'disc' in creeping flow [s]."""
-    return rho_p / (2 / math.pi * eps**-2.8 * 4.8**2 * eta / d**2)
-
-
-def bound_of(eps):
-    """Of dt/tau_p, where the discs' velocity of t^n goes into the continuity equation."""
-    return 2 * eps**2 * max(1 - (1 - eps) / eps * rho / rho_p, 0)
 
 
 def lines(series):
@@ -45,50 +35,23 @@ def points(quick):
     n = 8
     for name in schemes[1::3] if quick else schemes:
         for eps in [0.3, 0.48, 0.8] if quick else [0.25, 0.3, 0.4, 0.48, 0.65, 0.8, 0.95]:
-            a = d * math.sqrt(math.pi / 4 / (1 - eps))
-            grains = "x,y,radius\n" + "".join("%.17g,%.17g,%.17g\n" % ((i + 0.5) * a, (j + 0.5) * a, 0.5 * d) for j in range(n) for i in range(n))
             for x in [0.1, 0.4, 3] if quick else [0.01, 0.03, 0.1, 0.2, 0.4, 0.8, 1.5, 3, 10, 100]:
-                dt = x * tau(eps)
-                yield Point(name, label(x, eps), {
-                    "Coupling/Time scheme": name, "Time/Time step": "%.10g" % dt, "Time/End time": "%.10g" % (30 * dt),
-                    "Domain/Upper right corner": "%.17g, %.17g" % (n * a, n * a), "Grains/Deposit: file/File": "{folder}/grains.csv"},
-                    files={"grains.csv": grains}, x=x, y=eps)
+                yield Point(name, label(x, eps), settings(name, eps, x, n), files=files(eps, n), x=x, y=eps)
 
 
 def measure(run, point):
-    speed = [float(v) for v in run.columns["settling_speed_m_per_s"] if math.isfinite(v)]
-    change = [abs(b - a) for a, b in zip(speed, speed[1:])]
-    if len(change) < 3 or not max(change) > 0:
-        return {"growth": math.inf}
-    above = 0  # changes until the first that is next to none
-    while above < len(change) and change[above] > 1e-5 * max(change[: above + 1]):
-        above += 1
-    above = min(above, len(change) - 1)
-    return {"growth": (change[above] / change[0]) ** (1 / above) if change[above] > 0 else 1e-3}
+    return {"growth": growth(run)}
 
 
 def wrong(r, series):
     """Points, away from the line by more than a tenth, on which growth and theory disagree."""
-    found = [p for p in r.of(series) if "growth" in p.values]
-    if not found:
-        raise Missing("%s was not run" % series)
-    return sum((p.values["growth"] > 1) != (p.point.x > bound_of(p.point.y)) for p in found if not 0.9 < p.point.x / max(bound_of(p.point.y), 1e-9) < 1.1)
-
-
-def missing():
-    raise Missing("explicit was not run")
-
-
-def largest(r, series):
-    found = [p.values.get("growth", math.inf) for p in r.of(series)]
-    if not found:
-        raise Missing("%s was not run" % series)
-    return max(found)
+    return sum((p.values["growth"] > 1) != (p.point.x > bound_of(p.point.y)) for p in r.some(series, "growth")
+               if not 0.9 < p.point.x / max(bound_of(p.point.y), 1e-9) < 1.1)
 
 
 def claims(r):
     yield "'implicit drag' is unstable beyond the line, and nowhere else", lambda: wrong(r, "implicit drag"), "==", 0
-    yield "'explicit' is unstable from 3 tau_p on", lambda: min(p.values.get("growth", math.inf) for p in r.of("explicit") if p.point.x >= 3) if r.of("explicit") else missing(), ">", 1.0
+    yield "'explicit' is unstable from 3 tau_p on", lambda: min(p.values.get("growth", math.inf) for p in r.some("explicit") if p.point.x >= 3), ">", 1.0
     for name in ("semi-implicit per grain", "semi-implicit per piece", "iterated"):
         yield "'%s' is stable everywhere" % name, lambda name=name: largest(r, name), "<", 1.0
 

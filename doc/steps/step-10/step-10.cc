@@ -95,8 +95,8 @@ public:
     coupling.reinit();
   }
 
-  // One step to `time`. It is step 1 to 6 of doc/developer/architecture.md, "A step", for a mesh that stays and steps of one
-  // length.
+  // One step to `time`. It is step 1 to 6 of doc/developer/architecture.md, "A step", for a mesh that stays and steps
+  // of one length.
   void step(const double time, const Tensor<1, 2> &gravity)
   {
     // u^n is what the last step has found. Before this line its fluxes and forces can be asked for.
@@ -169,10 +169,10 @@ private:
   // Water and grains have walls of their own kind each. In a closed box the pressure is known up to a constant only.
   void set_conditions()
   {
-    using Kind                = fluid::BoundaryConditions<2>::Kind;
+    const auto        no_slip = fluid::boundary_kind<2>("No-slip walls");
     const std::string names[] = {"left", "right", "bottom", "top"};
     for (unsigned int id = 0; id < 4; ++id)
-      conditions.set(id, {Kind::no_slip, names[id], nullptr});
+      conditions.set(id, {no_slip, names[id], nullptr});
     conditions.pin(true);
     contacts.set_walls({{{{0., height}}, {{0., 0.}}, {}, "left"},
                         {{{width, 0.}}, {{width, height}}, {}, "right"},

@@ -22,6 +22,13 @@ class Exact:
         steady = self.permeability / ETA * self.k * math.tanh(self.k * BED) * self.pressure
         self.exchange = LENGTH / math.pi * steady / math.sqrt(1 + lag**2)
         self.power = 0.5 * LENGTH * self.pressure * steady / (1 + lag**2)
+        self.lag = lag
+
+    def drained(self, height, conductance):
+        """The exchange of a bed of that height whose floor drains, over that of the same with an impermeable one."""
+        still = math.tanh(self.k * height)
+        beta = conductance * ETA / (self.permeability * self.k) * (1 - 1j * self.lag)  # flux by pressure at the floor, over that of an endless bed
+        return abs((still + beta) / (1 + beta * still)) / still
 
 
 def draw(step, run, exact):
@@ -74,6 +81,13 @@ def results(step):
         mean = one.summary["exchange"]
         step.number("exchange_%d" % h, mean["mean_m2_per_s"] / exact.exchange, 0.003, "exchange over the exact one, cells of %d d" % h)
         step.number("power_%d" % h, mean["mean_power_W_per_m"] / exact.power, 0.003, "power over the exact one, cells of %d d" % h)
+    height, conductance = 0.0125, 2e-4
+    shallow = ["Domain/Upper right corner=%g, %g" % (LENGTH, height)]
+    drains = ["Boundary conditions/Slip walls=", "Boundary conditions/Drains=bottom: %g | rho*g*H" % conductance]
+    exchange = [step.run("sea-bed.prm", name=name, settings=shallow + settings, short=short).summary["exchange"]["mean_m2_per_s"]
+                for name, settings in (("shallow", []), ("drained", drains))]
+    step.number("drained", exchange[1] / exchange[0], 0.003, "exchange of a shallow bed over drains, over that over a tight floor")
+    step.number("exact_drained", exact.drained(height, conductance), 1e-3, "the same of the exact solution")
     end = 0.1 if step.short else 0.6
     step.run("sea-bed.prm", name="restarted", settings=["Mesh refinement/Criteria: uniform/Cell size=8", "Time/End time=%g" % (0.75 * end)],
              short=short[1:])

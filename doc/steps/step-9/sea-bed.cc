@@ -1,7 +1,8 @@
-// Waves over a sea bed: three plug-ins for Alluvium in one shared library.
+// Waves over a sea bed: four plug-ins for Alluvium in one shared library.
 //
 //   a drag law            "kozeny"       the permeability of Kozeny and Carman, with a constant of one's own
 //   a boundary condition  "linear wave"  the pressure on the bed under a wave of small amplitude
+//   a kind of these       "Drains"       a floor through which water seeps as its pressure says
 //   an observer           "exchange"     what water the wave pumps through the surface of the bed, and what that costs
 //
 // Each is a class that implements an interface, and a line that registers it. Nothing else knows of them: a scene names
@@ -10,6 +11,7 @@
 #include <alluvium/coupling/coupling.h>
 #include <alluvium/coupling/drag_law.h>
 #include <alluvium/fluid/boundary_plugin.h>
+#include <alluvium/fluid/face_state.h>
 #include <alluvium/observers/observer.h>
 
 #include <deal.II/base/mpi.h>
@@ -125,6 +127,58 @@ namespace
   };
 
   ALLUVIUM_REGISTER_BOUNDARY_CONDITION(LinearWave, "linear wave", "The pressure on the bed under a wave (Airy).")
+
+
+  // --- The kind of boundary condition ---
+
+  // A wave is a pressure, one of the kinds that the program has. This kind it has not: a floor with pores, through
+  // which
+  //
+  //   eps u.n = conductance (p - outside)
+  //
+  // passes. A kind says what it holds of velocity and pressure at the nodes (nothing, here), and adds the terms of its
+  // faces to the weak form.
+  class Drains : public fluid::BoundaryKind<2>
+  {
+  public:
+    Velocity velocity() const override { return Velocity::free; }
+
+    // Two expressions, `name: conductance | outside`. What --check calls it, and whether there is a column of the flux.
+    unsigned int n_values() const override { return 2; }
+    std::string  in_words() const override { return "drains"; }
+    bool         lets_fluid_pass() const override { return true; }
+
+    // The pressure outside fixes the level of the pressure inside: no other boundary has to.
+    bool fixes_pressure() const override { return true; }
+
+    // A wrong value is said with its boundary, its place and time.
+    bool        allows(const unsigned int c, const double value) const override { return c > 0 || value >= 0.; }
+    std::string expected() const override { return "a conductance of at least 0"; }
+
+    // Integrated by parts, the continuity equation has the term integral q eps u.n: conductance p goes into the matrix,
+    // conductance times the pressure outside is known. The unknown pressure leaves out the hydrostatic part.
+    bool has_terms() const override { return true; }
+    void add_terms(const fluid::FaceState<2> &state, fluid::FaceTerms<2> &terms) const override
+    {
+      constexpr unsigned int p = 2; // the unknowns of a node: two velocities, then the pressure
+      for (unsigned int q = 0; q < state.n_q_points(); ++q)
+        {
+          const auto  &phi         = state.face.phi[q];
+          const double conductance = state.face.jxw[q] * state.value(q, 0),
+                       outside     = state.value(q, 1) - state.pressure_left_out(q);
+          for (unsigned int i = 0; i < state.n_nodes(); ++i)
+            {
+              terms.known[terms.row(i, p)] += conductance * phi[i] * outside;
+              for (unsigned int j = 0; j < state.n_nodes(); ++j)
+                terms.matrix[terms.row(i, p)][terms.row(j, p)] += conductance * phi[i] * phi[j];
+            }
+        }
+    }
+  };
+
+  ALLUVIUM_REGISTER_BOUNDARY_KIND(Drains,
+                                  "Drains",
+                                  "Floors with pores, as `name: conductance [m/(Pa s)] | outside [Pa]`.")
 
 
   // --- The observer ---

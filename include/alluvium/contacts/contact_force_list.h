@@ -2,7 +2,7 @@
 
 #include <alluvium/contacts/contact_force.h>
 #include <alluvium/contacts/laws/cohesion.h>
-#include <alluvium/contacts/ranks/contact_work.h>
+#include <alluvium/contacts/ranks/local_contact_problem.h>
 #include <alluvium/contacts/soft_spheres.h>
 
 namespace alluvium::contacts
@@ -12,7 +12,7 @@ namespace alluvium::contacts
    * with @p soft_spheres (else null), by their springs. @p cohesion, if not null, is included. Empty if the pairs are
    * not those of these grains. Collective.
    */
-  std::vector<ContactForce> list_contact_forces(const ContactWork         &work,
+  std::vector<ContactForce> list_contact_forces(const LocalContactProblem &local,
                                                 const grains::GrainArrays &grains,
                                                 const SoftSpheres         *soft_spheres,
                                                 const Cohesion            *cohesion);

@@ -2,7 +2,7 @@
 
 #include <alluvium/contacts/contact_active_set.h>
 #include <alluvium/contacts/contact_bonds.h>
-#include <alluvium/contacts/ranks/contact_work.h>
+#include <alluvium/contacts/ranks/local_contact_problem.h>
 
 #include <array>
 #include <vector>
@@ -27,7 +27,7 @@ namespace alluvium::contacts
                       const ContactBonds     &bonds,
                       double                  h,
                       bool                    rotation,
-                      ContactWork            &work);
+                      LocalContactProblem    &local);
 
     /** What each wall segment got in the step up to now [N s/m], and the work that it did [J/m]. */
     const std::vector<std::array<double, 3>> &wall_impulses() const { return on_wall; }

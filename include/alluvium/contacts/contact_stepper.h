@@ -38,9 +38,9 @@ namespace alluvium::contacts
    * With `Contact model = soft-sphere`, SoftSpheres does all this instead.
    *
    * Arrays are replicated: the same on all ranks before and after a step. With set_communicator(), ranks share the work
-   * (ContactShare); without, or where there is little of it, each does all. The same input gives the same bits either
-   * way, on any number of ranks. When the last contact search was decides in which order contacts are solved, which
-   * shows within the tolerance.
+   * (ContactSubdomain); without, or where there is little of it, each does all. The same input gives the same bits
+   * either way, on any number of ranks. When the last contact search was decides in which order contacts are solved,
+   * which shows within the tolerance.
    */
   class ContactStepper
   {
@@ -51,9 +51,12 @@ namespace alluvium::contacts
     /** Declare the parameters of contacts in the current section of @p prm. */
     void add_parameters(dealii::ParameterHandler &prm);
 
+    /** After the file was read; see Plugin. Throws UserError. */
+    void parse_parameters();
+
     ContactSettings &settings();
 
-    /** Throws UserError if the settings name a wall that is not among them. */
+    /** Throws UserError for settings that do not fit them, such as a wall's name that is not among them. */
     void                                    set_walls(std::vector<grains::WallSegment> walls);
     const std::vector<grains::WallSegment> &walls() const; // where they are now, if they move
 
@@ -68,7 +71,7 @@ namespace alluvium::contacts
     void set_communicator(MPI_Comm communicator);
 
     /** In words, who works on the contacts of @p n_grains. */
-    std::string sharing(std::size_t n_grains) const;
+    std::string partitioning(std::size_t n_grains) const;
 
     /** What this rank has sent so far for the sake of contacts. */
     ContactTraffic traffic() const;

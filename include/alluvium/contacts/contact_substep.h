@@ -9,7 +9,7 @@
 #include <alluvium/contacts/laws/cohesion.h>
 #include <alluvium/contacts/laws/contact_material.h>
 #include <alluvium/contacts/laws/contact_settings.h>
-#include <alluvium/contacts/ranks/contact_work.h>
+#include <alluvium/contacts/ranks/local_contact_problem.h>
 #include <alluvium/contacts/solvers/contact_solver.h>
 #include <alluvium/contacts/solvers/moment_correction.h>
 
@@ -33,9 +33,9 @@ namespace alluvium::contacts
       double               tolerance_factor = 1.;      // where grains move, tolerances are this much larger
     };
 
-    ContactSubstep(const ContactSettings &settings, ContactWork &work)
+    ContactSubstep(const ContactSettings &settings, LocalContactProblem &local)
       : settings(settings)
-      , work(work)
+      , local(local)
     {}
 
     void begin(Step new_step);
@@ -61,7 +61,7 @@ namespace alluvium::contacts
     };
 
     const ContactSettings &settings;
-    ContactWork           &work;
+    LocalContactProblem   &local;
     Step                   step;
 
     // Of the sub-step
@@ -78,6 +78,7 @@ namespace alluvium::contacts
 
     void             advance(double h, unsigned int level, ContactReport &report);
     void             set_margins(double h);
+    double           with_margin(double needed, double at_rest) const;
     void             search_if_due();
     void             set_problem(bool keep);
     ContactTolerance tolerance(bool on_the_move) const;

@@ -29,6 +29,7 @@ namespace alluvium::coupling
                  const fluid::Vector          &eps);
 
     void add_parameters(dealii::ParameterHandler &prm);
+    void parse_parameters() { drag.parse_parameters(); }
 
     /** The space has been rebuilt. */
     void reinit();

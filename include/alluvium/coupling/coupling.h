@@ -72,7 +72,7 @@ namespace alluvium::coupling
 
     /**
      * Solve the fluid from t^n to t^n + @p dt and fill @p loads. @p boundary_conditions are at the new time. @p fixed
-     * grains neither move nor yield. A step that would be the last one once more, bit by bit, is not computed.
+     * grains do not move. A step that would be the last one once more, bit by bit, is not computed.
      * Collective.
      */
     void step(const fluid::BoundaryConditions<dim> &boundary_conditions,

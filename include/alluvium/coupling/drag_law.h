@@ -36,12 +36,9 @@ namespace alluvium::coupling
    * Interface of the drag closures: f_drag = gamma (u - v), a force density per volume of grain (model A: the pressure
    * gradient acts on the grain besides).
    */
-  class DragLaw
+  class DragLaw : public Plugin
   {
   public:
-    virtual ~DragLaw() = default;
-    virtual void add_parameters(dealii::ParameterHandler &) {}
-
     /** gamma [N s/m^4]: above zero and finite for eps in [0.05, 1] and any slip. */
     virtual double gamma(const DragState &state) const = 0;
 

@@ -1,16 +1,8 @@
 #pragma once
 
-#include <array>
+#include <alluvium/coupling/declarations.h>
 
-namespace alluvium::fluid
-{
-  template <int dim>
-  class BoundaryConditions;
-  template <int dim>
-  class FluidSpace;
-  template <int dim>
-  class VansSolver;
-} // namespace alluvium::fluid
+#include <array>
 
 namespace alluvium::grains
 {
@@ -19,8 +11,6 @@ namespace alluvium::grains
 
 namespace alluvium::coupling
 {
-  class Coupling;
-
   /** What a change of the mesh might spoil; sums over all ranks. */
   struct FlowTotals
   {

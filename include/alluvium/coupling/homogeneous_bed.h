@@ -1,14 +1,8 @@
 #pragma once
 
+#include <alluvium/coupling/declarations.h>
 #include <alluvium/coupling/drag_law.h>
 #include <alluvium/grains/grain_arrays.h>
-
-namespace alluvium::fluid
-{
-  struct FluidProperties;
-  template <int dim>
-  class FluidSpace;
-} // namespace alluvium::fluid
 
 namespace alluvium::coupling
 {
@@ -20,10 +14,7 @@ namespace alluvium::coupling
     double                        eps;
 
     /** Whether the law gives these grains any drag. */
-    bool has_drag(const DragLaw &law) const
-    {
-      return resistance(law, 0.) > 0.;
-    }
+    bool has_drag(const DragLaw &law) const { return resistance(law, 0.) > 0.; }
 
     /** K [m^2] of Darcy's law U = K |grad p| / eta in creeping flow: eta eps^2 / ((1 - eps) gamma(0)); 0 without drag.
      */
@@ -44,8 +35,6 @@ namespace alluvium::coupling
     double resistance(const DragLaw &law, const double u) const;
   };
 
-  class Coupling;
-
   /**
    * Permeability [m^2] of the bed of @p area [m^2] as the run sees it, with the void fraction at every piece of a
    * grain: K of U = K |grad p| / eta, where the gradient is the mean over the bed in creeping flow of superficial
@@ -56,6 +45,12 @@ namespace alluvium::coupling
                                 const fluid::FluidProperties &fluid,
                                 const grains::GrainArrays    &grains,
                                 double                        area);
+
+  /**
+   * The void fraction below which @p share of the grains' volume lies: that of the densest part of them, as the fluid
+   * sees it. 1 without grains; in steps of 1e-3. Collective.
+   */
+  double void_fraction_of_densest(const Coupling &coupling, const fluid::FluidSpace<2> &space, const double share);
 
   /** Void fraction inside a bed as the fluid sees it; 1 where there is no inside. See grains/packing.h. */
   double inner_void_fraction(const grains::GrainArrays &grains);

@@ -16,22 +16,24 @@ namespace alluvium::coupling
   {
     enum class Rule
     {
-      centroid, // shape functions at the piece's centroid (the paper): exact for linear functions
-      moments,  // with second moments: exact for Q1 on parallelograms
-      centre    // all of a grain evenly in the cell that has its centre, whatever the filter: jumps from cell to cell
+      centroid,       // shape functions at the piece's centroid (the paper): exact for linear functions
+      moments,        // with second moments: exact for Q1 on parallelograms
+      particle_centre // all of a grain evenly in the cell that has its centre, whatever the filter: jumps from cell to
+                      // cell
     };
-    /** How a grain is spread over the filter's disc: `even`, or `smooth`, as 2 (1 - q^2/R^2) of the distance q from
-     * the centre, so that nothing jumps at the edge. */
-    using Shape          = geometry::DiscWeight;
-    double filter_radius = 2.; // in contact diameters; 0: the grain's own fluid radius, over which it is always even
-    Rule   rule          = Rule::moments;
+    /** How a grain is spread over the filter's disc, the kernel: top hat, or parabolic, as 2 (1 - q^2/R^2) of the
+     * distance q from the centre, so that nothing jumps at the edge. */
+    using Shape = geometry::DiscWeight;
+    double filter_radius =
+      2.; // in contact diameters; 0: the grain's own fluid radius, over which it is always a top hat
+    Rule rule = Rule::moments;
     /** A grain that has moved by less than this [contact diameters] since it was cut is not cut again. */
     double tolerance = 1e-6;
     bool   keep_arms = false; // see OverlapMap::arms()
-    Shape  shape     = Shape::even;
+    Shape  shape     = Shape::top_hat;
 
     /** The shape that the discs have. */
-    Shape shape_of_discs() const { return filter_radius > 0. ? shape : Shape::even; }
+    Shape shape_of_discs() const { return filter_radius > 0. ? shape : Shape::top_hat; }
   };
 
   /** The settings as parameters of section `Coupling`. */
@@ -43,7 +45,7 @@ namespace alluvium::coupling
     OverlapSettings settings() const;
 
   private:
-    std::string radius = "2 d", shape = "even", rule = "moments";
+    std::string radius = "2 d", shape = "top-hat", rule = "moments";
     double      tolerance = OverlapSettings().tolerance;
   };
 } // namespace alluvium::coupling

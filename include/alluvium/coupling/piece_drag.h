@@ -14,6 +14,7 @@ namespace alluvium::coupling
   {
   public:
     void add_parameters(dealii::ParameterHandler &prm);
+    void parse_parameters();
 
     /** Fill the drag per volume of all pieces of @p state from its fluid at t^n and the void fraction @p eps. */
     void find(const fluid::FluidSpace<2>   &space,

@@ -10,12 +10,9 @@ namespace alluvium::coupling
    * Interface of the coupling schemes: they say how the velocity of a piece (the intersection of a grain and a cell)
    * depends on the fluid during the step, solve by solve, and what acts on the grains afterwards.
    */
-  class TimeScheme
+  class TimeScheme : public Plugin
   {
   public:
-    virtual ~TimeScheme() = default;
-    virtual void add_parameters(dealii::ParameterHandler &) {}
-
     /** Whether the grains' acceleration that the fluid sees is the one they take: added mass needs that. */
     virtual bool predicts_acceleration() const { return false; }
 

@@ -3,15 +3,11 @@
 #include <alluvium/geometry/upright.h>
 #include <alluvium/grains/periodicity.h>
 #include <alluvium/grains/wall.h>
+#include <alluvium/utilities/plugin_interface.h>
 
 #include <array>
 #include <string>
 #include <vector>
-
-namespace dealii
-{
-  class ParameterHandler;
-}
 
 namespace alluvium::deposits
 {
@@ -35,17 +31,16 @@ namespace alluvium::deposits
     std::vector<std::string>        *warnings    = nullptr; // where to put what the user should know, if anywhere
     geometry::Upright                upright     = {};      // how all this has been turned; parameters have not
     std::vector<grains::WallSegment> sides       = {};      // the whole boundary, if it is not the bounding box
+    bool                             moves       = true;    // will the grains move?
   };
 
   /**
    * Interface of the plug-ins that give the initial packing: where the grains are at t = 0. make() runs on one rank
    * only; the result is sent to the others. It must be reproducible: the same parameters and seed give the same grains.
    */
-  class Deposit
+  class Deposit : public Plugin
   {
   public:
-    virtual ~Deposit() = default;
-    virtual void                  add_parameters(dealii::ParameterHandler &) {}
     virtual std::vector<NewGrain> make(const DepositContext &context) const = 0;
 
     /** Does it put grains down on a floor? Then it is given a scene turned upright, and what it makes is turned back.

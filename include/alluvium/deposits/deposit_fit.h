@@ -9,6 +9,9 @@ namespace alluvium::deposits
   /** Mean area of discs whose diameters are uniform between @p d_min [m] and @p ratio times that [m^2]. */
   double uniform_disc_area(double d_min, double ratio);
 
+  /** Throws UserError if @p d [m], a @p parameter of the deposit @p name, is no diameter of a grain. */
+  void check_diameter(const std::string &name, const std::string &parameter, double d);
+
   /**
    * Throws UserError, for the deposit @p name, if @p n discs of a mean area [m^2] cannot fit @p box however they lie:
    * their area alone says so. Chance has its part in the area of few discs.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <alluvium/fluid/boundary_kind.h>
 #include <alluvium/fluid/boundary_plugin.h>
 
 #include <deal.II/base/function.h>
@@ -18,37 +19,35 @@ namespace dealii
 
 namespace alluvium::fluid
 {
-  /**
-   * What happens on each named part of the boundary: wall without slip, wall with slip (= symmetry), given
-   * pressure, or given velocity; the latter two as functions of x and t, by formulas or BoundaryPlugins.
-   */
+  /** What happens on each named part of the boundary: a BoundaryKind, and its values as functions of x and t. */
   template <int dim>
   class BoundaryConditions
   {
   public:
-    enum class Kind
-    {
-      no_slip,
-      slip,
-      pressure,
-      velocity,
-      natural // no net flux of the mixture, no viscous traction: the ends of a homogeneous suspension in tests
-    };
     struct Condition
     {
-      Kind                                   kind;
-      std::string                            name;
-      std::shared_ptr<dealii::Function<dim>> value; // pressure: 1 component [Pa]; velocity: dim components [m/s]
+      std::shared_ptr<const BoundaryKind<dim>> kind; // for programs that have no parameter file: see boundary_kind()
+      std::string                              name;
+      std::shared_ptr<dealii::Function<dim>>   value; // as many components as the kind has values
 
-      std::string text            = "";    // of the value, as the user wrote it
+      std::string text            = "";    // of the values, as the user wrote it
       bool        add_hydrostatic = false; // is the pressure to be added to that of the fluid at rest?
       bool        of_plugin       = false; // then `text` is its name
 
       /** May the value depend on @p variable, x, y or t? A formula says so, others do not. */
       bool may_depend_on(const std::string &variable) const;
+
+      /** May the value have jumps? As above. */
+      bool may_jump() const;
+
+      /** The parameter that gives the value, and the boundary, for messages. */
+      std::string described() const;
     };
 
     void add_parameters(dealii::ParameterHandler &prm);
+
+    /** After the file was read; see Plugin. Throws UserError. */
+    void parse_parameters();
 
     /**
      * Resolve the parsed names and expressions. @p ids maps boundary names to ids; @p constants are names that
@@ -73,12 +72,15 @@ namespace alluvium::fluid
     /** Do given velocities depend on time? */
     bool velocity_depends_on_time() const;
 
+    /** Do values that are neither a pressure nor a velocity depend on time? */
+    bool terms_depend_on_time() const;
+
     /** Is a given velocity that of the fluid between the grains? Else it is that of the mixture, a flux by area. */
     bool velocity_is_interstitial() const { return given_velocity == "interstitial"; }
     void give_interstitial_velocity() { given_velocity = "interstitial"; }
 
-    /** Is the pressure given on a boundary? */
-    bool has_pressure() const;
+    /** Does a boundary say how high the pressure is? */
+    bool fixes_pressure() const;
 
     /**
      * Of the fluid at rest: @p gradient is rho g [Pa/m], and the pressure vanishes at @p origin. It is added to the
@@ -89,7 +91,7 @@ namespace alluvium::fluid
     const std::map<dealii::types::boundary_id, Condition> &all() const { return conditions; }
 
     /** Is the pressure fixed at one node instead of on a boundary (closed box)? */
-    bool pins_pressure() const { return pin_pressure && !has_pressure(); }
+    bool pins_pressure() const { return pin_pressure && !fixes_pressure(); }
     void pin(const bool yes) { pin_pressure = yes; }
 
     /** Are given pressures total ones, p + rho u^2/2, where the flow enters? Static ones otherwise. */
@@ -99,9 +101,11 @@ namespace alluvium::fluid
     /** Where a plug-in gives the value: its name by the boundary's. Throws UserError. */
     std::vector<std::pair<std::string, std::string>> plugins_by_boundary() const;
 
-    std::string no_slip, slip, symmetric, pressure, velocity, hydrostatic, by_plugins;
+    std::string hydrostatic, by_plugins;
 
-    std::map<std::string, std::shared_ptr<BoundaryPlugin>> plugins; // all that are registered
+    PluginSet<BoundaryKind<dim>>       kinds;
+    std::map<std::string, std::string> boundaries; // of each kind, as the user wrote it
+    PluginSet<BoundaryPlugin>          plugins;
 
     std::string given_velocity     = "superficial";
     std::string pressure_on_inflow = "static";

@@ -7,6 +7,7 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <map>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -55,9 +56,9 @@ namespace alluvium::fluid
     dealii::Tensor<1, dim>     normal; // of these faces
   };
 
-  /** A face through which the fluid may go in and out: the pressure is given there. */
+  /** A face, or part of one, whose condition gives the pressure or has terms. */
   template <int dim>
-  struct OpenFace
+  struct BoundaryFace
   {
     unsigned int               cell;
     dealii::types::boundary_id boundary;
@@ -67,6 +68,7 @@ namespace alluvium::fluid
     std::vector<std::array<std::array<double, dim>, max_nodes<dim>>> grad; // [1/m]
     std::vector<dealii::Tensor<1, dim>>                              normal;
     std::vector<double>                                              jxw;
+    std::vector<dealii::Point<dim>>                                  point;
   };
 
   /**
@@ -102,17 +104,17 @@ namespace alluvium::fluid
     /** Where velocities are given, by nodal dof. */
     std::map<dealii::types::global_dof_index, InflowNode<dim>> inflow_nodes() const;
 
-    std::vector<InflowFace<dim>> inflow; // of all cells that this rank knows
-    std::vector<OpenFace<dim>>   open;   // of owned cells
+    std::vector<InflowFace<dim>>   inflow; // of all cells that this rank knows
+    std::vector<BoundaryFace<dim>> faces;  // of owned cells
 
   private:
-    using Kind = typename BoundaryConditions<dim>::Kind;
+    using Velocity = typename BoundaryKind<dim>::Velocity;
 
     /** Half of a face that ends at a node, and how much of the face is a boundary's. */
     struct HalfFace
     {
       dealii::types::boundary_id boundary;
-      Kind                       kind;
+      const BoundaryKind<dim>   *kind;
       dealii::Tensor<1, dim>     normal;
       double                     length;         // [m]
       bool                       touches, whole; // does the part end at the node, is it all of the face?
@@ -122,10 +124,11 @@ namespace alluvium::fluid
     {
       std::array<dealii::types::global_dof_index, dim + 1> dof;
       dealii::Point<dim>                                   point;
-      std::map<Kind, dealii::types::boundary_id>           kinds;
+      std::map<Velocity, dealii::types::boundary_id>       velocities; // the first boundary that holds each
+      std::optional<dealii::types::boundary_id>            pressure;   // the first that gives one
       std::vector<HalfFace>                                faces;
 
-      std::vector<dealii::Tensor<1, dim>> normals_of(const Kind kind) const;
+      std::vector<dealii::Tensor<1, dim>> normals_of(const Velocity velocity) const;
 
       /** A face whose velocity is given here, if one is. */
       const HalfFace *inflow() const;

@@ -13,7 +13,7 @@ namespace alluvium::fluid
    * Interface of boundary conditions that come as plug-ins: a pressure [Pa] or a velocity [m/s] that is given on a
    * boundary as a function of place and time. The same on all ranks.
    */
-  class BoundaryPlugin
+  class BoundaryPlugin : public Plugin
   {
   public:
     enum class Gives
@@ -22,8 +22,6 @@ namespace alluvium::fluid
       velocity
     };
 
-    virtual ~BoundaryPlugin() = default;
-    virtual void  add_parameters(dealii::ParameterHandler &) {}
     virtual Gives gives() const = 0;
 
     /**

@@ -75,7 +75,8 @@ namespace alluvium::fluid
     /** Of all cells that this rank knows. */
     const std::vector<InflowFace<dim>>                               &inflow_faces() const { return inflow; }
     const std::map<dealii::types::global_dof_index, InflowNode<dim>> &inflow_nodes() const { return inflow_at; }
-    const std::vector<OpenFace<dim>>                                 &open_faces() const { return open; }
+    /** Of owned cells. */
+    const std::vector<BoundaryFace<dim>> &faces() const { return boundary_faces; }
     /** Ids of the boundaries with a given pressure, in order, the same on all ranks. */
     const std::vector<dealii::types::boundary_id> &open_boundaries() const { return open_ids; }
 
@@ -98,7 +99,7 @@ namespace alluvium::fluid
     std::map<dealii::types::boundary_id, std::vector<BoundaryWeight>> boundary_weights;
     std::vector<InflowFace<dim>>                                      inflow;
     std::map<dealii::types::global_dof_index, InflowNode<dim>>        inflow_at;
-    std::vector<OpenFace<dim>>                                        open;
+    std::vector<BoundaryFace<dim>>                                    boundary_faces;
     std::vector<dealii::types::boundary_id>                           open_ids;
   };
 } // namespace alluvium::fluid

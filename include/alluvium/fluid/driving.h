@@ -17,6 +17,13 @@ namespace dealii
 
 namespace alluvium::fluid
 {
+  /** A component of what a parameter gives as a function of time. */
+  struct FunctionOfTime
+  {
+    std::string                   parameter, text; // its name, and its value as the user wrote it
+    std::function<double(double)> component;
+  };
+
   /** What drives the fluid besides its boundaries: a body force, and a mean pressure gradient in a periodic box. */
   template <int dim>
   class Driving
@@ -42,9 +49,8 @@ namespace alluvium::fluid
     dealii::Tensor<1, dim> background_gradient(const dealii::Tensor<1, dim>  &hydrostatic_gradient,
                                                const std::array<double, dim> &periodic_length) const;
 
-    /** Components of body force [N/m^3] and mean pressure gradient [Pa/m] that depend on time [s], as functions of it.
-     */
-    std::vector<std::function<double(double)>> functions_of_time() const;
+    /** Components of body force [N/m^3] and mean pressure gradient [Pa/m] that depend on time [s]. */
+    std::vector<FunctionOfTime> functions_of_time() const;
 
     /** [N/m^3] of fluid */
     const dealii::Tensor<1, dim> &body_force() const { return force; }

@@ -24,7 +24,7 @@ namespace alluvium::fluid
     double viscous       = 0.; // dissipated by shear
     double stabilisation = 0.; // taken by PSPG, SUPG, lumping of the drag
     double time          = 0.; // taken by the backward Euler method
-    double open          = 0.; // taken by the terms of open boundaries
+    double open          = 0.; // taken by the terms of boundaries
 
     /** Powers that give less those that take [W/m]. */
     double explained() const { return boundaries + body - to_grains - drag - viscous - stabilisation - time - open; }

@@ -44,10 +44,16 @@ namespace alluvium::fluid
     double                        stabilisation_dt = 0.;      // dt of tau where that is not dt [s]
     const InterphaseTerms<dim>   *solid;
     std::array<const Vector *, 3> reference = {{nullptr, nullptr, nullptr}}; // u_ref of the pieces; [0] stays null
-    double                        tolerance_factor         = 1.; // of the linear solver's tolerance, for this problem
-    const std::vector<std::array<double, 2>> *given_fluxes = nullptr; // GivenVelocity::face_fluxes(); set by the solver
-    std::array<double, dim>                   drive        = {}; // force on the fluid, not on grains [N/m^3 of fluid]
-    const dealii::Function<dim> *body_force  = nullptr;          // [N/m^3], dim components; for manufactured solutions
-    const dealii::Function<dim> *mass_source = nullptr;          // [1/s]
+    double                        tolerance_factor = 1.; // of the linear solver's tolerance, for this problem
+
+    // set by the solver
+    const BoundaryConditions<dim>            *boundary_conditions = nullptr;
+    const std::vector<std::array<double, 2>> *given_fluxes        = nullptr; // GivenVelocity::face_fluxes()
+    dealii::Tensor<1, dim> background_gradient; // of the pressure that the unknowns leave out [Pa/m],
+    double                 pressure_datum = 0.; // and what it is at the origin [Pa]
+
+    std::array<double, dim>      drive       = {};      // force on the fluid, not on grains [N/m^3 of fluid]
+    const dealii::Function<dim> *body_force  = nullptr; // [N/m^3], dim components; for manufactured solutions
+    const dealii::Function<dim> *mass_source = nullptr; // [1/s]
   };
 } // namespace alluvium::fluid

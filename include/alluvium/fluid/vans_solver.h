@@ -47,7 +47,7 @@ namespace alluvium::fluid
     }
 
     /** See Driving::functions_of_time(). */
-    std::vector<std::function<double(double)>> driving_functions() const { return driving.functions_of_time(); }
+    std::vector<FunctionOfTime> driving_functions() const { return driving.functions_of_time(); }
 
     /** Gradient of the pressure that the solution leaves out, datum() aside [Pa/m]; at the time of the latest step. */
     dealii::Tensor<1, dim> background_gradient() const
@@ -139,6 +139,12 @@ namespace alluvium::fluid
     void                  solve_with_new_known_terms();
     void                  solve_increment();
     std::array<double, 2> term_scale() const;
+
+    /** The same, of the present iterate alone. Collective. */
+    std::array<double, 2> term_sizes() const;
+
+    /** Side of a cell, about [m]. Collective. */
+    double cell_length() const;
 
     const FluidSpace<dim>       *space;
     VansProblem<dim>             current;

@@ -18,16 +18,17 @@ namespace alluvium::geometry
   /** How the mass of a disc is spread over it, 1 in the mean: as for overlap(), or as for smooth_overlap(). */
   enum class DiscWeight
   {
-    even,
-    smooth
+    top_hat,
+    parabolic
   };
 
   /**
    * Cuts discs with the cells of a RectangleGrid. With Q(x, y) the moments of the disc's part left of x and below y, a
    * piece is the alternating sum of Q over its corners, and Q is a polynomial in the coordinates, their chords' halves
    * and arc sines, for either weight: square roots and arc sines are found once a line. Exact to 1e-15 of the matching
-   * power of the radius, as smooth_overlap() (overlap(): of the smaller one of radius and cell); even pieces so small
-   * that their means would lose digits are overlap()'s, smooth ones below 1e-13 R^2 are dropped as smooth_overlap()'s.
+   * power of the radius, as smooth_overlap() (overlap(): of the smaller one of radius and cell); top-hat pieces so
+   * small that their means would lose digits are overlap()'s, parabolic ones below 1e-13 R^2 are dropped as
+   * smooth_overlap()'s.
    */
   class GridCutter
   {

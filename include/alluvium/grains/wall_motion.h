@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace alluvium::grains
@@ -21,6 +22,7 @@ namespace alluvium::grains
       Velocity                        velocity = {{0., 0., 0.}};
       double                          from = -for_ever, to = for_ever; // [s]
       std::function<Velocity(double)> at_time; // in place of the constant velocity, if it is there
+      std::string                     text;    // of its formulas, for messages
     };
 
     std::vector<Phase> phases;

@@ -10,7 +10,7 @@
 namespace alluvium::mesh
 {
   /** What bisection knows of a cell. */
-  struct CellToDeal
+  struct BisectedCell
   {
     dealii::Point<2> center; // [m]
     double           n_near; // grains that are likely to be cut by it
@@ -23,7 +23,7 @@ namespace alluvium::mesh
    * of two cuts about as good, the one across the longer side is taken. Returns the part of each cell; no part is empty
    * unless there are more of them than cells.
    */
-  std::vector<dealii::types::subdomain_id> bisect(const std::vector<CellToDeal> &cells, unsigned int n_parts);
+  std::vector<dealii::types::subdomain_id> bisect(const std::vector<BisectedCell> &cells, unsigned int n_parts);
 
   /** Partition the active cells of @p triangulation, and the grains that @p weights counts near them, over all ranks.
    */

@@ -67,6 +67,12 @@ namespace alluvium::mesh
     double most_diameters() const { return max_diameters; }
 
     /**
+     * Numbers of cells along x and y that the rectangle's unrefined mesh has with sides of at most @p cell_size [m],
+     * and as square as possible: whole numbers, however large.
+     */
+    std::array<double, dim> n_cells_of_rectangle(double cell_size) const;
+
+    /**
      * The unrefined mesh, distributed over all ranks. A rectangle has cells as square as possible with sides of at most
      * @p cell_size [m] (a hair more where rounding makes them square). Cells of a file are as they are. What may be
      * refined is a parallel::distributed::Triangulation, partitioned along p4est's space-filling curve. Triangles, and

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <alluvium/coupling/declarations.h>
 #include <alluvium/grains/bed_faces.h>
 #include <alluvium/grains/leavers.h>
 #include <alluvium/observers/mesh_change.h>
@@ -23,21 +24,6 @@ namespace alluvium::contacts
   struct ContactReport;
   class ContactStepper;
 } // namespace alluvium::contacts
-
-namespace alluvium::coupling
-{
-  class Coupling;
-}
-
-namespace alluvium::fluid
-{
-  template <int dim>
-  class BoundaryConditions;
-  template <int dim>
-  class FluidSpace;
-  template <int dim>
-  class VansSolver;
-} // namespace alluvium::fluid
 
 namespace alluvium::grains
 {
@@ -90,12 +76,9 @@ namespace alluvium::observers
    * Interface of the plug-ins that measure. They may look at everything and change nothing; what they find goes into
    * the columns of statistics.csv and into summary.json.
    */
-  class Observer
+  class Observer : public Plugin
   {
   public:
-    virtual ~Observer() = default;
-    virtual void add_parameters(dealii::ParameterHandler &) {}
-
     /**
      * Whether there is anything to measure in this scene; the others are never called again. Throws UserError for a
      * parameter that does not fit the scene, such as the name of a wall that it has not.

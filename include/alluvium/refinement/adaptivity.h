@@ -4,7 +4,11 @@
 #include <alluvium/refinement/refinement_criterion.h>
 #include <alluvium/utilities/plugin.h>
 
+#include <deal.II/base/point.h>
+
+#include <array>
 #include <functional>
+#include <vector>
 
 namespace dealii
 {
@@ -14,6 +18,10 @@ namespace dealii
 
 namespace alluvium::refinement
 {
+  /** Corners of a quadrilateral, in deal.II's order: lower left and right, upper left and right [m]. */
+  template <int dim>
+  using CellCorners = std::array<dealii::Point<dim>, 1 << dim>;
+
   /** What an adaptation did, and the mesh after it. The same on all ranks. */
   struct AdaptationReport
   {
@@ -38,6 +46,9 @@ namespace alluvium::refinement
     /** Declare section `Mesh refinement` in @p prm. */
     void add_parameters(dealii::ParameterHandler &prm);
 
+    /** After the file was read; see Plugin. Throws UserError. */
+    void parse_parameters();
+
     /**
      * The cell size [m] that the unrefined mesh should have, or 0 if the criteria cannot say because there are no
      * grains.
@@ -52,6 +63,13 @@ namespace alluvium::refinement
 
     /** Is the mesh to be adapted before step number @p step (0, 1, ...)? */
     bool due(unsigned int step) const;
+
+    /** What to warn of: a criterion that wants smaller cells everywhere than `Finest cell size` lets it have; or empty.
+     */
+    std::string remark_on_limits(const RefinementContext &context) const;
+
+    /** Throws UserError if a criterion will want what is no size in the run to @p end_time [s]. */
+    void check_until(double end_time, const RefinementContext &context) const;
 
     /** Does a criterion look at the fluid's fields? Then a mesh may change although no grain moves. */
     bool needs_fluid() const;
@@ -94,6 +112,16 @@ namespace alluvium::refinement
 
     /** The parameter `Max cells`. */
     double most_cells() const { return max_cells; }
+
+    /**
+     * About how many cells the criteria make of unrefined @p cells, each of which stands for @p weight of them. Found
+     * without making any, level by level; where there are many, a part of them stands for all. Cells that are refined
+     * for their neighbours' sake, or because of the flow, are not counted.
+     */
+    double expected_cells(std::vector<CellCorners<dim>> cells, double weight, const RefinementContext &context) const;
+
+    /** Throws UserError if @p n_cells of expected_cells() are too many, beyond its error. */
+    void check_number(double n_cells) const;
 
   private:
     AdaptationReport run(dealii::Triangulation<dim, dim> &triangulation,

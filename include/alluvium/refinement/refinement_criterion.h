@@ -3,14 +3,10 @@
 #include <alluvium/fluid/fluid_space.h>
 #include <alluvium/grains/bed_faces.h>
 #include <alluvium/mesh/box.h>
+#include <alluvium/utilities/plugin_interface.h>
 
 #include <array>
 #include <limits>
-
-namespace dealii
-{
-  class ParameterHandler;
-}
 
 namespace alluvium::refinement
 {
@@ -60,15 +56,13 @@ namespace alluvium::refinement
   /**
    * Interface of the plug-ins that say how fine the fluid's mesh should be. Of several criteria the smallest size wins.
    */
-  class RefinementCriterion
+  class RefinementCriterion : public Plugin
   {
   public:
     static constexpr double no_wish = std::numeric_limits<double>::infinity();
     /** What a criterion with a threshold multiplies it by when it is asked for Purpose::coarsen. */
     static constexpr double hysteresis = 0.7;
 
-    virtual ~RefinementCriterion() = default;
-    virtual void add_parameters(dealii::ParameterHandler &) {}
 
     /** Look at a new @p context; wanted_size() is asked about it afterwards. Collective. */
     virtual void prepare(const RefinementContext &) {}
@@ -84,6 +78,9 @@ namespace alluvium::refinement
 
     /** Is coarsest_size() what it wants everywhere and always? */
     virtual bool is_uniform() const { return false; }
+
+    /** Throws UserError if it will want what is no size until @p end_time [s]. */
+    virtual void check_until(const double, const RefinementContext &) {}
 
     /** Does it look at the fluid's fields? */
     virtual bool needs_fluid() const { return false; }

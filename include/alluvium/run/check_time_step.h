@@ -5,11 +5,15 @@ namespace alluvium::run
   struct Model;
 
   /**
-   * The longest step that the time scheme stands in linear theory with the grains as they are [s], see
-   * doc/theory/coupling.md: infinite where it has no limit, 0 where it is unstable at any. Collective.
+   * The longest step that the time scheme stands in linear theory with the grains as they are [s], at the void fraction
+   * of the densest tenth of them, see doc/theory/coupling.md: infinite where it has no limit, 0 where it is unstable at
+   * any. Collective.
    */
-  double stable_step(const Model &model, double end_time);
+  double stable_step(const Model &model);
 
-  /** Warn of a time step that the scheme does not stand in linear theory, see doc/theory/coupling.md. Collective. */
-  void check_time_step(Model &model, double end_time);
+  /**
+   * Warn, once in a run, of a time step that the scheme does not stand in linear theory with the grains as they are,
+   * see doc/theory/coupling.md: with the factor by which it is too long, and what would do. Collective.
+   */
+  void check_time_step(Model &model);
 } // namespace alluvium::run

@@ -16,6 +16,7 @@ namespace alluvium::run
   {
   public:
     void add_parameters(dealii::ParameterHandler &prm);
+    void parse_parameters() { deposit.parse_parameters(); }
 
     /** See WallSetup. */
     std::vector<grains::WallSegment> walls(const mesh::Domain<2> &domain) const;

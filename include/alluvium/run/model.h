@@ -87,7 +87,7 @@ namespace alluvium::run
     /** Forget what modules keep of earlier steps because it saves work: the next step finds it anew. Collective. */
     void drop_caches();
 
-    /** Gravity and the kind of fluid are written as text: make them what they mean. After parsing. */
+    /** Of all rooms, after the file was read; see Plugin. Throws UserError. */
     void parse_parameters();
 
   private:

@@ -32,6 +32,9 @@ namespace alluvium::run
 
     void add_parameters(dealii::ParameterHandler &prm);
 
+    /** After the file was read; see Plugin. Throws UserError. */
+    void parse_parameters();
+
     /** Choose the observers that find something to measure in the scene. After set_up(). */
     void choose_observers();
 

@@ -49,8 +49,8 @@ namespace alluvium::run
     /** Declare its parameters and the time step's in section `Time`. */
     void add_parameters(dealii::ParameterHandler &prm);
 
-    /** After parsing: a step for the set-up. Throws UserError. */
-    void parse_parameters();
+    /** After parsing: a step for the set-up of a run to @p end_time [s]. Throws UserError. */
+    void parse_parameters(double end_time);
 
     bool automatic() const { return is_automatic; }
 

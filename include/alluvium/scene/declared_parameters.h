@@ -37,6 +37,9 @@ namespace alluvium::scene
     /** The parameter at @p path, or nullptr. */
     const DeclaredParameter *find(const ParameterPath &path) const;
 
+    /** The present path of a parameter that @p path names, maybe by an old name; otherwise @p path itself. */
+    ParameterPath present_name(const ParameterPath &path) const;
+
     bool has_section(const ParameterPath &path) const;
 
     /** Cut 'Section/Name' into a path. A name may have a slash in it, so whatever is declared decides. */
@@ -54,7 +57,8 @@ namespace alluvium::scene
   private:
     std::vector<DeclaredParameter> all_parameters;
     std::vector<ParameterPath>     all_sections;
-    std::vector<ParameterPath>     aliases; // old names, read but not shown
+
+    std::vector<std::pair<ParameterPath, ParameterPath>> aliases; // old names, read but not shown, and the present ones
   };
 
   /** What a deal.II pattern allows, for a human: '[Double 0...MAX_DOUBLE (inclusive)]' is 'a number >= 0'. */

@@ -15,6 +15,8 @@ namespace alluvium::scene
     std::string   value;
     std::string   origin; // 'file.prm:12' or the command line option: for messages
     bool          opens_section = false;
+    std::string   file; // that the line is in; empty for the command line
+    unsigned int  line = 0;
   };
 
   /** (path 'Section/Name', value) */
@@ -37,6 +39,13 @@ namespace alluvium::scene
    */
   void apply_statements(dealii::ParameterHandler &prm, const std::vector<Statement> &statements);
 
+  /**
+   * One sentence for each line that sets what an earlier line of the same file has set already, maybe under an old
+   * name. To override what an included file or the command line says is no mistake.
+   */
+  std::vector<std::string> find_repetitions(const std::vector<Statement> &statements,
+                                             const DeclaredParameters     &declared);
+
   /** Declare the top-level parameter Method, a choice that changes the defaults of others, as Accuracy does. */
   void declare_method(dealii::ParameterHandler &prm);
 
@@ -46,12 +55,18 @@ namespace alluvium::scene
                                            const std::vector<Statement>   &statements,
                                            const ParameterOverrides       &paper_method);
 
+  /** What reading the parameters has to say. */
+  struct Remarks
+  {
+    std::vector<std::string> choices;  // what Accuracy has chosen, in lines for the scene's report
+    std::vector<std::string> warnings; // of find_repetitions()
+  };
+
   /**
-   * All of the above in order: the file (if the name is not empty), then the @p assignments of the command line. Returns
-   * what `Accuracy` has chosen, in lines for the scene's report.
+   * All of the above in order: the file (if the name is not empty), then the @p assignments of the command line.
    */
-  std::vector<std::string> read_parameters(dealii::ParameterHandler       &prm,
-                                           const std::string              &file_name,
-                                           const std::vector<std::string> &assignments,
-                                           const ParameterOverrides       &paper_method);
+  Remarks read_parameters(dealii::ParameterHandler       &prm,
+                          const std::string              &file_name,
+                          const std::vector<std::string> &assignments,
+                          const ParameterOverrides       &paper_method);
 } // namespace alluvium::scene

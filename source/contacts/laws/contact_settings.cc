@@ -117,10 +117,11 @@ namespace alluvium::contacts
       Double(0.));
     prm.declare_alias("Largest depenetration speed", "Push-out speed");
     prm.add_parameter(
-      "Cold start",
-      cold_start,
+      "Hydrostatic initial guess",
+      hydrostatic_guess,
       "Whether a bed whose contact impulses are not known yet starts from a hydrostatic guess, layer by "
       "layer, instead of from zero.");
+    prm.declare_alias("Hydrostatic initial guess", "Cold start");
     prm.add_parameter("Steps to rest",
                       rest_steps,
                       "When over this many steps no load has changed by more than 1e-3 of a grain's weight and no "
@@ -134,7 +135,7 @@ namespace alluvium::contacts
       "time; changes results only within the tolerance, by the order in which contacts are solved.",
       Double(1e-3));
     prm.add_parameter("Least grains a rank",
-                      least_share,
+                      least_grains_a_rank,
                       "MPI ranks share the work of contacts if each gets this many grains; below, messages would cost "
                       "more than they save, and every rank does all. Results have the same bits either way.",
                       Integer(1));

@@ -76,12 +76,15 @@ namespace alluvium::contacts
             break;
         }
       problem.discs          = free;
-      ContactSolution others = part("accelerated Gauss-Seidel").solve(problem, tolerance);
+      ContactSolution others = part(fallback).solve(problem, tolerance);
       others.sweeps += solution.sweeps;
       return others;
     }
 
+    std::vector<std::string> parts() const override { return {fallback}; }
+
   private:
+    static constexpr const char  *fallback    = "accelerated Gauss-Seidel";
     static constexpr unsigned int most_sweeps = 10; // worth of visits
 
     double largest_queue = 0.2;

@@ -47,13 +47,24 @@ namespace alluvium::contacts
     const std::vector<Overlap> overlaps = find_overlaps(grains, walls, tolerance, periodicity);
     if (overlaps.empty())
       return;
-    const Overlap     &worst = overlaps.front();
-    const std::size_t  k     = std::lower_bound(grains.id.begin(), grains.id.end(), worst.a) - grains.id.begin();
+    const Overlap &worst     = overlaps.front();
+    const auto     number_of = [&](const grains::GrainId id) {
+      return static_cast<std::size_t>(std::lower_bound(grains.id.begin(), grains.id.end(), id) - grains.id.begin());
+    };
+    // the smaller one, which is the likelier mistake
+    std::size_t k = number_of(worst.a), other = k;
+    if (worst.wall.empty())
+      {
+        other = number_of(worst.b);
+        if (grains.radius[other] < grains.radius[k])
+          std::swap(k, other);
+      }
     std::ostringstream text;
-    text << "Grain " << worst.a << " at (" << grains.position[0][k] << ", " << grains.position[1][k] << ") m overlaps "
-         << (worst.wall.empty() ? "grain " + std::to_string(worst.b) : "the wall '" + worst.wall + "'") << " by "
-         << worst.depth << " m, " << worst.depth / (2. * grains.radius[k]) << " of its diameter; " << overlaps.size()
-         << " pairs overlap by more than " << tolerance << " m. Move the grains apart.";
+    text << "Grain " << grains.id[k] << " at (" << grains.position[0][k] << ", " << grains.position[1][k]
+         << ") m, of diameter " << 2. * grains.radius[k] << " m, overlaps "
+         << (worst.wall.empty() ? "grain " + std::to_string(grains.id[other]) : "the wall '" + worst.wall + "'")
+         << " by " << worst.depth << " m, " << worst.depth / (2. * grains.radius[k]) << " of its diameter; "
+         << overlaps.size() << " pairs overlap by more than " << tolerance << " m. Move the grains apart.";
     throw UserError(text.str());
   }
 } // namespace alluvium::contacts

@@ -1,9 +1,6 @@
 #pragma once
 
-namespace dealii
-{
-  class ParameterHandler;
-}
+#include <alluvium/utilities/plugin_interface.h>
 
 namespace alluvium::contacts
 {
@@ -16,12 +13,9 @@ namespace alluvium::contacts
    * the sub-step h obeys r >= 0 where r - h force is what it exchanges in all, and Coulomb's limit is mu r. The sweeps
    * know nothing of it.
    */
-  class Cohesion
+  class Cohesion : public Plugin
   {
   public:
-    virtual ~Cohesion() = default;
-    virtual void add_parameters(dealii::ParameterHandler &) {}
-
     /** Whether there is any attraction; if not, nothing else is asked. */
     virtual bool acts() const { return true; }
 

@@ -1,13 +1,9 @@
 #pragma once
 
 #include <alluvium/contacts/laws/contact_material.h>
+#include <alluvium/utilities/plugin_interface.h>
 
 #include <vector>
-
-namespace dealii
-{
-  class ParameterHandler;
-}
 
 namespace alluvium::contacts
 {
@@ -24,12 +20,9 @@ namespace alluvium::contacts
    * Interface of the plug-ins for contact laws: which friction, rolling friction and restitution each contact has in a
    * sub-step. They are asked once a sub-step for all contacts, so that the sweeps pay nothing.
    */
-  class ContactLaw
+  class ContactLaw : public Plugin
   {
   public:
-    virtual ~ContactLaw() = default;
-    virtual void add_parameters(dealii::ParameterHandler &) {}
-
     /** Whether all contacts have the numbers of their materials, whatever they do; if so, nothing else is asked. */
     virtual bool is_constant() const { return false; }
 

@@ -18,7 +18,7 @@ namespace alluvium::contacts
     double       rolling_friction    = 0.;   // between grains, and with walls
     double       restitution         = 0.;   // Newton's
     double       threshold_velocity  = 0.01; // [m/s] slower impacts do not bounce
-    bool         cold_start          = true;
+    bool         hydrostatic_guess   = true;
     bool         rotation            = true;
     double       residual_tolerance  = 4e-5; // of mean weight times h, as the next
     double       violation_tolerance = 1e-2;
@@ -36,7 +36,7 @@ namespace alluvium::contacts
     double       depenetration_speed = 0.1;  // times sqrt(g d): and how fast at most
     unsigned int rest_steps          = 10;   // without change before grains sleep; see Rest
     double       skin                = 0.15; // of the largest diameter
-    unsigned int least_share         = 2000; // grains a rank, or every rank does all
+    unsigned int least_grains_a_rank = 2000; // grains a rank, or every rank does all
 
     std::map<std::string, double> single_friction, single_rolling_friction, single_restitution; // of walls, by name
 

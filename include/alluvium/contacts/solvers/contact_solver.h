@@ -1,14 +1,10 @@
 #pragma once
 
 #include <alluvium/contacts/solvers/contact_problem.h>
+#include <alluvium/utilities/plugin_interface.h>
 
 #include <algorithm>
 #include <string>
-
-namespace dealii
-{
-  class ParameterHandler;
-}
 
 namespace alluvium::contacts
 {
@@ -66,11 +62,9 @@ namespace alluvium::contacts
    * must be deterministic. Over several ranks they are collective, speak through the problem's communicator only, and
    * must find the same bits on any number of them, or refuse.
    */
-  class ContactSolver
+  class ContactSolver : public Plugin
   {
   public:
-    virtual ~ContactSolver() = default;
-    virtual void            add_parameters(dealii::ParameterHandler &) {}
     virtual ContactSolution solve(ContactProblem &problem, const ContactTolerance &tolerance) const = 0;
   };
 

@@ -1,4 +1,4 @@
-#include <alluvium/contacts/solvers/cold_start.h>
+#include <alluvium/contacts/solvers/hydrostatic_guess.h>
 #include <alluvium/utilities/reproducible_sum.h>
 
 #include <algorithm>
@@ -91,11 +91,11 @@ namespace alluvium::contacts
     }
   } // namespace
 
-  ContactSolution solve_cold(ContactProblem         &problem,
-                             const DiscPlaces       &places,
-                             const BedWeight        &weight,
-                             const ContactSolver    &solver,
-                             const ContactTolerance &tolerance)
+  ContactSolution solve_from_hydrostatic_guess(ContactProblem         &problem,
+                                               const DiscPlaces       &places,
+                                               const BedWeight        &weight,
+                                               const ContactSolver    &solver,
+                                               const ContactTolerance &tolerance)
   {
     const std::vector<Disc> free = problem.discs;
     CoarseCorrection        blocks(problem, places);

@@ -24,9 +24,9 @@ namespace alluvium::contacts
    * and between a few cycles of sweeps, each longer than the one before, CoarseCorrection brings large parts of the bed
    * to rest; unless they turn out to be falling. Then the solver goes on by itself. Collective.
    */
-  ContactSolution solve_cold(ContactProblem         &problem,
-                             const DiscPlaces       &places,
-                             const BedWeight        &weight,
-                             const ContactSolver    &solver,
-                             const ContactTolerance &tolerance);
+  ContactSolution solve_from_hydrostatic_guess(ContactProblem         &problem,
+                                               const DiscPlaces       &places,
+                                               const BedWeight        &weight,
+                                               const ContactSolver    &solver,
+                                               const ContactTolerance &tolerance);
 } // namespace alluvium::contacts

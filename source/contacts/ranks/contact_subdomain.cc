@@ -1,4 +1,4 @@
-#include <alluvium/contacts/ranks/contact_share.h>
+#include <alluvium/contacts/ranks/contact_subdomain.h>
 #include <alluvium/grains/grain_columns.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ namespace alluvium::contacts
     constexpr unsigned int n_wire = 7; // numbers of an archive's entry on the wire
   }                                    // namespace
 
-  ContactShare::ContactShare(const MPI_Comm communicator)
+  ContactSubdomain::ContactSubdomain(const MPI_Comm communicator)
     : ghosts(communicator)
   {
     int value;
@@ -37,10 +37,10 @@ namespace alluvium::contacts
     rank = value;
   }
 
-  ContactCandidates ContactShare::divide(const grains::GrainArrays &all,
-                                         const grains::GrainLoads  &all_loads,
-                                         const ContactCandidates   &pairs,
-                                         const unsigned int         n_colours)
+  ContactCandidates ContactSubdomain::divide(const grains::GrainArrays &all,
+                                             const grains::GrainLoads  &all_loads,
+                                             const ContactCandidates   &pairs,
+                                             const unsigned int         n_colours)
   {
     std::vector<std::uint32_t> work(all.n(), 1);
     for (const ContactPair &p : pairs.discs)
@@ -64,14 +64,14 @@ namespace alluvium::contacts
     return std::move(partition.pairs);
   }
 
-  ContactTraffic ContactShare::traffic() const
+  ContactTraffic ContactSubdomain::traffic() const
   {
     ContactTraffic result = ghosts.traffic();
     result.n_migrated     = n_migrated;
     return result;
   }
 
-  void ContactShare::load(const grains::GrainArrays &all, const grains::GrainLoads &all_loads)
+  void ContactSubdomain::load(const grains::GrainArrays &all, const grains::GrainLoads &all_loads)
   {
     const std::size_t n = grains.n();
     take_rows(all, partition.grains, When::changing, grains);
@@ -92,14 +92,14 @@ namespace alluvium::contacts
     touched.assign(n, 0);
   }
 
-  void ContactShare::update_ghosts()
+  void ContactSubdomain::update_ghosts()
   {
     // what a sub-step looks at in the other grain of a pair
     ghosts.update_ghosts(
       {&grains.position[0], &grains.position[1], &grains.velocity[0], &grains.velocity[1], &grains.omega});
   }
 
-  std::vector<double> ContactShare::collect_rows(const std::vector<double> &mine, const unsigned int width)
+  std::vector<double> ContactSubdomain::collect_rows(const std::vector<double> &mine, const unsigned int width)
   {
     std::vector<int> counts(ranks, 0);
     for (const unsigned int r : partition.owner)
@@ -119,7 +119,7 @@ namespace alluvium::contacts
     return result;
   }
 
-  void ContactShare::collect(grains::GrainArrays &all, std::vector<std::uint8_t> &all_touched)
+  void ContactSubdomain::collect(grains::GrainArrays &all, std::vector<std::uint8_t> &all_touched)
   {
     const auto          mine = columns_of(grains, When::changing), everyones = columns_of(all, When::changing);
     const unsigned int  width = mine.size() + 1;
@@ -141,7 +141,7 @@ namespace alluvium::contacts
       }
   }
 
-  ContactArchive ContactShare::collect(const ContactArchive &mine)
+  ContactArchive ContactSubdomain::collect(const ContactArchive &mine)
   {
     std::vector<double> rows;
     rows.reserve(n_wire * mine.entries.size());

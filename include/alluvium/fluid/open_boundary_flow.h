@@ -1,6 +1,6 @@
 #pragma once
 
-#include <alluvium/fluid/cell_state.h>
+#include <alluvium/fluid/vans_problem.h>
 
 #include <map>
 
@@ -21,17 +21,4 @@ namespace alluvium::fluid
   template <int dim>
   std::map<dealii::types::boundary_id, double>
   dynamic_pressures(const FluidSpace<dim> &space, const double density, const BlockVector &field);
-
-  /**
-   * The terms of a face with a given pressure, in the rows of the momentum equation (doc/theory/open-boundaries.md):
-   * traction without the transposed gradient, no streamline upwinding across the face, and where flow enters no
-   * advection from outside, no tangential velocity, and for @p backflow (0 to 1) the loss of its kinetic energy. @p
-   * state must be that of the face's cell. Adds to @p L and to the known terms @p b.
-   */
-  template <int dim, int n>
-  void add_open_face(const CellState<dim, n> &state,
-                     const OpenFace<dim>     &face,
-                     const double             backflow,
-                     LocalMatrix<dim, n>     &L,
-                     LocalVector<dim, n>     &b);
 } // namespace alluvium::fluid

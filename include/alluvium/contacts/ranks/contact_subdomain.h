@@ -16,11 +16,11 @@ namespace alluvium::contacts
    * all grains but smaller. Between fluid steps and at contact searches all ranks have all grains; in between, each
    * moves its own.
    */
-  class ContactShare
+  class ContactSubdomain
   {
   public:
     /** Collective. */
-    explicit ContactShare(MPI_Comm communicator);
+    explicit ContactSubdomain(MPI_Comm communicator);
 
     grains::GrainArrays       grains;  // own and ghosts
     grains::GrainLoads        loads;   // on them
