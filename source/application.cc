@@ -1,4 +1,5 @@
 #include <alluvium/application.h>
+#include <alluvium/scene/accuracy.h>
 #include <alluvium/scene/declared_parameters.h>
 #include <alluvium/scene/parameter_file.h>
 #include <alluvium/scene/shared_libraries.h>
@@ -144,12 +145,14 @@ namespace alluvium
       Simulation               simulation(MPI_COMM_WORLD);
       dealii::ParameterHandler prm;
       scene::declare_method(prm);
+      scene::declare_accuracy(prm);
       scene::declare_shared_libraries(prm);
       simulation.add_parameters(prm);
-      const auto warnings =
+      const auto remarks =
         scene::read_parameters(prm, command_line.scene, command_line.assignments, Simulation::paper_method());
+      simulation.describe_accuracy(remarks.choices);
       if (is_first_rank)
-        for (const std::string &warning : warnings)
+        for (const std::string &warning : remarks.warnings)
           std::cerr << "alluvium: warning: " << warning << std::endl;
       scene::set_shared_libraries(prm, libraries);
 

@@ -413,6 +413,12 @@ namespace alluvium
   }
 
 
+  void Simulation::describe_accuracy(const std::vector<std::string> &lines)
+  {
+    implementation->model.accuracy = lines;
+  }
+
+
   void Simulation::check(const ParameterHandler &prm, const std::string &parameter_directory)
   {
     implementation->check(prm, parameter_directory);

@@ -95,7 +95,7 @@ def work_precision_panel(axis, results, name, looks, handles):
         points = [r for r in shown if r.point.series == s]
         handles[s], = axis.plot([place(r) for r in points], [r.cpu_s for r in points], marker=marker, color=colour, ms=9, lw=1, ls=":", mec="white", mew=0.7, zorder=3)
         for r in points:
-            axis.wanted.append((place(r), r.cpu_s, r.point.label, colour))
+            axis.wanted.append((place(r), r.cpu_s, r.point.label if r.point.shown is None else r.point.shown, colour))
             if r.point.default:
                 handles["default"], = axis.plot([place(r)], [r.cpu_s], "o", ms=19, mfc="none", mec="black", mew=1.6, ls="", zorder=4)
     if floor:

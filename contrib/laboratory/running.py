@@ -138,14 +138,19 @@ class Runner:
                 raise
         found = [results[i] for i in range(len(points))]
         self.write(found)
-        return Results(found, self.study.get("floor", 0.0))
+        return self.with_taken(found, quick)
 
     def known(self, quick=False):
         """What results.csv has of the study's points, of whatever version."""
         rows = {(row["series"], row["label"]): row for row in read_rows(self.file)}
         found = [from_row(rows[p.series, p.label], p) for p in self.study.points(quick) if (p.series, p.label) in rows]
-        self.study.compare(found)
-        return Results(found, self.study.get("floor", 0.0))
+        return self.with_taken(found, quick)
+
+    def with_taken(self, results, quick):
+        """Results, with those that the study takes from others."""
+        results = results + list(self.study.get("taken", lambda quick: [])(quick))
+        self.study.compare(results)
+        return Results(results, self.study.get("floor", 0.0))
 
     def kill(self):
         with self.lock:

@@ -27,6 +27,7 @@ class Point:
     files: dict = dataclasses.field(default_factory=dict)
     reference: bool = False
     default: bool = False  # what the program does if nobody says otherwise
+    shown: Optional[str] = None  # beside it on the chart; default: the label
 
     @property
     def name(self):

@@ -30,6 +30,9 @@ namespace alluvium
     /** Declare every parameter of the program in @p prm and bind it to the object that uses it. */
     void add_parameters(dealii::ParameterHandler &prm);
 
+    /** What `Accuracy` has chosen and why, in @p lines for the scene's report. */
+    void describe_accuracy(const std::vector<std::string> &lines);
+
     /**
      * Build the scene, report what it is and what it leaves out, and stop; throws what run() would before its first
      * step, and writes no files. That the output folder holds an older run is only a warning.

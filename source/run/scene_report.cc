@@ -129,6 +129,7 @@ namespace alluvium::run
       for (std::size_t i = 0; i < texts.size(); ++i)
         line(i == 0 ? what : "", texts[i]);
     };
+    lines("accuracy", m.accuracy);
     const std::string body = s.is_suspension ? "suspension" : "bed";
     line("grains",
          m.grain_setup.unit_length() > 0.

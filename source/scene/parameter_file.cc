@@ -1,3 +1,4 @@
+#include <alluvium/scene/accuracy.h>
 #include <alluvium/scene/parameter_file.h>
 #include <alluvium/utilities/input_files.h>
 #include <alluvium/utilities/magnitudes.h>
@@ -363,29 +364,29 @@ namespace alluvium::scene
   }
 
 
-  void apply_method(dealii::ParameterHandler     &prm,
-                    const std::vector<Statement> &statements,
-                    const ParameterOverrides     &paper_method)
+  std::vector<Statement> method_statements(const dealii::ParameterHandler &prm,
+                                           const std::vector<Statement>   &statements,
+                                           const ParameterOverrides       &paper_method)
   {
     std::string method = prm.get("Method");
     for (const auto &statement : statements)
       if (statement.path == ParameterPath{"Method"} && !statement.opens_section)
         method = statement.value;
-    if (method != "paper")
-      return;
-
-    const DeclaredParameters declared(prm);
-    std::vector<Statement>   overrides;
-    for (const auto &[name, value] : paper_method)
-      overrides.push_back({declared.split(name), value, "Method = paper", false, "", 0});
-    apply_statements(prm, overrides);
+    std::vector<Statement> overrides;
+    if (method == "paper")
+      {
+        const DeclaredParameters declared(prm);
+        for (const auto &[name, value] : paper_method)
+          overrides.push_back({declared.split(name), value, "Method = paper", false, "", 0});
+      }
+    return overrides;
   }
 
 
-  std::vector<std::string> read_parameters(dealii::ParameterHandler       &prm,
-                                           const std::string              &file_name,
-                                           const std::vector<std::string> &assignments,
-                                           const ParameterOverrides       &paper_method)
+  Remarks read_parameters(dealii::ParameterHandler       &prm,
+                          const std::string              &file_name,
+                          const std::vector<std::string> &assignments,
+                          const ParameterOverrides       &paper_method)
   {
     std::vector<Statement> statements;
     if (!file_name.empty())
@@ -395,8 +396,13 @@ namespace alluvium::scene
     for (const auto &assignment : assignments)
       statements.push_back(read_assignment(assignment, declared));
 
-    apply_method(prm, statements, paper_method);
+    Remarks remarks;
+    remarks.warnings = find_repetitions(statements, declared);
+    // what the scene says comes after what Method says, and that after what Accuracy says
+    const auto method = method_statements(prm, statements, paper_method);
+    statements.insert(statements.begin(), method.begin(), method.end());
+    remarks.choices = apply_accuracy(prm, statements);
     apply_statements(prm, statements);
-    return find_repetitions(statements, declared);
+    return remarks;
   }
 } // namespace alluvium::scene

@@ -59,7 +59,8 @@ namespace
     std::vector<std::string> read(const std::string &text, const std::vector<std::string> &assignments = {})
     {
       return read_parameters(
-        prm, write("scene.prm", text), assignments, {{"Grains/Drag law", "paper"}, {"Grains/Radius", "7"}});
+               prm, write("scene.prm", text), assignments, {{"Grains/Drag law", "paper"}, {"Grains/Radius", "7"}})
+        .warnings;
     }
 
     std::string without_folder(std::string message) const

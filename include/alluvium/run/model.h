@@ -80,6 +80,8 @@ namespace alluvium::run
 
     std::optional<observers::TimeStepChoice> time_step_choice; // of the latest step, where the program chooses
 
+    std::vector<std::string> accuracy; // what `Accuracy` has chosen, for the scene's report
+
     std::vector<std::pair<std::string, std::string>> parameters; // all of them as used; a checkpoint keeps them
 
     /** Forget what modules keep of earlier steps because it saves work: the next step finds it anew. Collective. */

@@ -44,23 +44,29 @@ namespace alluvium::scene
    * name. To override what an included file or the command line says is no mistake.
    */
   std::vector<std::string> find_repetitions(const std::vector<Statement> &statements,
-                                            const DeclaredParameters     &declared);
+                                             const DeclaredParameters     &declared);
 
-  /** Declare the top-level parameter Method, the one choice that changes the defaults of others. */
+  /** Declare the top-level parameter Method, a choice that changes the defaults of others, as Accuracy does. */
   void declare_method(dealii::ParameterHandler &prm);
 
-  /** If @p statements choose the method of the paper, set @p paper_method in @p prm: to be called before they are
-   * applied. */
-  void apply_method(dealii::ParameterHandler     &prm,
-                    const std::vector<Statement> &statements,
-                    const ParameterOverrides     &paper_method);
+  /** What `Method` sets, if @p statements choose the method of the paper: what @p paper_method says; it comes before
+   * them. */
+  std::vector<Statement> method_statements(const dealii::ParameterHandler &prm,
+                                           const std::vector<Statement>   &statements,
+                                           const ParameterOverrides       &paper_method);
+
+  /** What reading the parameters has to say. */
+  struct Remarks
+  {
+    std::vector<std::string> choices;  // what Accuracy has chosen, in lines for the scene's report
+    std::vector<std::string> warnings; // of find_repetitions()
+  };
 
   /**
    * All of the above in order: the file (if the name is not empty), then the @p assignments of the command line.
-   * Returns what the user should be warned of.
    */
-  std::vector<std::string> read_parameters(dealii::ParameterHandler       &prm,
-                                           const std::string              &file_name,
-                                           const std::vector<std::string> &assignments,
-                                           const ParameterOverrides       &paper_method);
+  Remarks read_parameters(dealii::ParameterHandler       &prm,
+                          const std::string              &file_name,
+                          const std::vector<std::string> &assignments,
+                          const ParameterOverrides       &paper_method);
 } // namespace alluvium::scene
