@@ -63,5 +63,5 @@ TEST(FlowTerms, AreThoseOfAKnownFlow)
   EXPECT_NEAR(terms.convection / (eps * rho * pi * std::sqrt(3. / 64.)), 1., 0.02);
   EXPECT_NEAR(terms.viscosity / (eps * eta * pi * pi * std::sqrt(2.5)), 1., 0.02);
   EXPECT_NEAR(terms.pressure / eps, 1., 0.02);
-  EXPECT_EQ(terms.largest(), terms.viscosity);
+  EXPECT_EQ(terms.largest(), terms.inertia);
 }
