@@ -177,7 +177,7 @@ def compare(expected, found):
 
 BLOCK = re.compile(r"<!-- (from|printed by) (\S+) -->\n+```\w*\n(.*?)```", re.DOTALL)
 NUMBER = re.compile(r"([-+]?(?:\d[\d,]*)?\.?\d+(?:e[-+]?\d+)?)<!-- (\w+) -->")
-MARK = re.compile(r"<!-- *(?!accuracy:|end of accuracy)(.*?) *-->")  # those of `contrib/lab choose` are its own
+MARK = re.compile(r"<!--(?! *accuracy:| *end of accuracy) *(.*?) *-->")  # those of `contrib/lab choose` are its own
 LINK = re.compile(r"\]\(([^)#\s]+)")
 
 
