@@ -171,9 +171,15 @@ namespace alluvium::run
     };
     constexpr unsigned int interval = 10; // steps: it costs as much as to assemble them
     if (!(left_out(Term::convection) || left_out(Term::inertia) || left_out(Term::viscous_stress)) ||
-        model.n_steps <= n_first_steps || (model.n_steps > 20 && model.n_steps % interval != 0) ||
-        model.coupling.report().steady)
+        model.n_steps <= n_first_steps || model.coupling.report().steady)
       return;
+    // between them a flow that changes by much, by a pulse say
+    constexpr double much  = 0.1;
+    const double     speed = model.solver.solution().block(0).l2_norm();
+    if (model.n_steps > 20 && model.n_steps % interval != 0 &&
+        std::abs(speed - speed_when_looked_at) <= much * std::max(speed, speed_when_looked_at))
+      return;
+    speed_when_looked_at = speed;
     const fluid::FlowTerms terms = fluid::flow_terms(model.space,
                                                      model.solver.problem(),
                                                      model.solver.solution(),
@@ -278,6 +284,7 @@ namespace alluvium::run
     auto &saved               = state["model"];
     saved["leaves out fluid"] = leaves_out_fluid;
     saved["grains move"]      = model.grains_move;
+    saved["flow looked at"]   = speed_when_looked_at;
     for (const Row &r : table)
       saved["terms"][name_of(r.term.term)] = {
         r.term.on, r.term.is_asked, r.term.estimate, r.term.because, r.since, r.most};
@@ -302,6 +309,7 @@ namespace alluvium::run
       return true; // a run that was full stays so
     if (state.at("model").at("grains move").get<bool>() != model.grains_move)
       return false;
+    speed_when_looked_at = state.at("model").value("flow looked at", 0.);
     const auto number = [](const nlohmann::ordered_json &x) {
       return x.is_null() ? std::numeric_limits<double>::quiet_NaN() : x.get<double>();
     };

@@ -6,8 +6,15 @@ lab="$SCENES/../../doc/lab/accuracy"
 small_bed=(--set 'Domain/Upper right corner=0.004,0.006' --set 'Grains/Deposit: settled bed/Number of grains=300')
 small_suspension=(--set 'Domain/Upper right corner=0.004,0.008' --set 'Time/End time=0.03')
 
-last() { # COLUMN
-  python3 -c 'import csv, sys; print(list(csv.DictReader(open("output/statistics.csv")))[-1][sys.argv[1]])' "$1"
+last() { # COLUMN: its last value, of a settling speed its mean over the run: how far grains have fallen
+  python3 - "$1" <<'END'
+import csv, sys
+rows = list(csv.DictReader(open("output/statistics.csv")))
+rows = [row for row in rows if row[sys.argv[1]] != ""]
+t, y = ([float(row[name]) for row in rows] for name in ("time_s", sys.argv[1]))
+fall = sum((t[i] - t[i - 1]) * (y[i] + y[i - 1]) / 2 for i in range(1, len(t)))
+print(fall / t[-1] if sys.argv[1].startswith("settling") else y[-1])
+END
 }
 
 compare() { # COLUMN SCENE SETTINGS...: with a reference on fine even cells

@@ -73,7 +73,8 @@ END
 must_run 1 bed.prm --set 'Output/Output folder=full'
 must_run 1 bed.prm --set 'Output/Output folder=auto' --set Model=auto
 [ "$(of_summary auto 'model/inertia of the fluid/on')" = no ] || fail "a fixed bed at low Reynolds number has inertia"
-must_agree full/statistics.csv auto/statistics.csv --tolerance 1e-3 --ignore flux_imbalance
+# each term that is left out may take a thousandth, and there are three
+must_agree full/statistics.csv auto/statistics.csv --tolerance 3e-3 --ignore flux_imbalance
 /usr/bin/python3 - "$(of_summary full 'counts/linear iterations')" "$(of_summary auto 'counts/linear iterations')" \
   "$(of_summary auto 'counts/fluid steps like the last')" <<'END' || fail "a fixed bed is solved again and again"
 import sys
@@ -83,7 +84,7 @@ assert auto < 0.5 * full and steady == 48
 END
 
 # Too short for the estimates to see, a jet of water comes: inertia is on from there
-pulse=(--set 'Boundary conditions/Pressure=top: 0; bottom: rho*g*H + rho*g*L*if(abs(t - 0.025125) < 1e-4, 20, 0.05)' --set 'Time/Time step=5e-5'
+pulse=(--set 'Boundary conditions/Pressure=top: 0; bottom: rho*g*H + rho*g*L*if(abs(t - 0.025125) < 6e-5, 20, 0.05)' --set 'Time/Time step=5e-5'
        --set 'Time/End time=0.03')
 must_run 1 bed.prm --set 'Output/Output folder=pulse' --set Model=auto "${pulse[@]}"
 grep -q 't = 0.025[0-9]* s: inertia of the fluid switched on, estimate' screen-output || fail "no word of inertia"

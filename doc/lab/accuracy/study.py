@@ -157,14 +157,22 @@ def cost(r, scene, asked):
     return run_of(r, scene, asked).cpu_s / found
 
 
+# What not even the tightest rung gives, and what it gives instead.
+NOT_REACHED = {("0.1 %", "fall"): 0.005}
+
+
 def claims(r):
     for asked in accuracy.ACCURACIES:
         for scene, (_, names) in SCENES.items():
             for name in names:
+                if (asked, name) in NOT_REACHED:
+                    yield ("`%s`: not reached for the %s, for which the tightest settings are taken; it is right within 0.5 %%" % (asked, name),
+                           lambda scene=scene, name=name, asked=asked: run_of(r, scene, asked).errors[name], "<=", NOT_REACHED[asked, name])
+                    continue
                 bound = max(accuracy.ACCURACIES[asked], r.floor(name))
                 unknown = "" if bound == accuracy.ACCURACIES[asked] else ", as far as the reference is known"
                 yield "`%s`: the %s is right within that%s" % (asked, name, unknown), lambda scene=scene, name=name, asked=asked: run_of(r, scene, asked).errors[name], "<=", bound
-    for asked in accuracy.ACCURACIES:
+    for asked in ("10 %", "1 %"):  # for 0.1 % a setting that is cheaper is right by luck: it has tighter ones beside it that are not
         for scene in SCENES:
             if r.of("other studies"):  # a quick study has none
                 yield "`%s`: %s costs at most twice the cheapest that was found" % (asked, scene), lambda scene=scene, asked=asked: cost(r, scene, asked), "<=", 2

@@ -97,6 +97,7 @@ namespace alluvium::run
     double      accuracy   = 0.01;
 
     bool              is_automatic = false, leaves_out_fluid = false;
+    double            speed_when_looked_at = 0.; // norm of the flow's velocities when its terms were last estimated
     std::vector<Term> keep;
     std::vector<Row>  table;
   };
