@@ -63,6 +63,21 @@ namespace alluvium::run
         }
     }
 
+    /** Is there a node at which the fluid may move? In a channel of one cell between walls without slip there is none. */
+    void look_for_free_nodes(Model &m)
+    {
+      unsigned long long n_free = 0;
+      for (const auto dof : m.space.owned()[0])
+        n_free += !m.space.constraints().is_constrained(dof);
+      const auto &all = m.boundary_conditions.all();
+      const bool  may_flow =
+        std::any_of(all.begin(), all.end(), [](const auto &entry) { return entry.second.kind->gives_pressure(); });
+      if (Utilities::MPI::sum(n_free, m.communicator) == 0 && may_flow)
+        m.warnings.add("all nodes of the mesh are on walls, where the fluid does not move, so that there is no flow. Make "
+                       "cells smaller (Domain/Coarse cell size, or Mesh refinement/Criteria)",
+                       m.time);
+    }
+
     /** What kinds of boundary conditions say of their boundaries. */
     void check_kinds(Model &m, const std::map<types::boundary_id, double> &fluxes)
     {
@@ -92,6 +107,7 @@ namespace alluvium::run
     if (!m.has_fluid)
       return;
     look_for_bed_height(m);
+    look_for_free_nodes(m);
     auto                  &conditions = m.boundary_conditions;
     const bool             closed     = !conditions.fixes_pressure();
     constexpr unsigned int n_times    = 50;

@@ -64,7 +64,7 @@ namespace alluvium::run
     prm.add_parameter("Accuracy",
                       accuracy,
                       "How far results may be from those of the full model [-]; each term that is left out may take a "
-                      "tenth of it.",
+                      "tenth of it. If Accuracy is set, it is that unless it is set here.",
                       Patterns::Double(1e-12, 1.));
     prm.add_parameter("Keep",
                       keep_text,

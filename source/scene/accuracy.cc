@@ -165,6 +165,15 @@ namespace alluvium::scene
             }
         lines.push_back(choice.group + ": " + (left_alone.empty() ? text : left_alone));
       }
+    // what terms of the model may take, if they may be left out
+    const std::string of_model = "Automatic model/Accuracy";
+    if (value_of("Model") == "auto" && !statement_of(of_model))
+      {
+        const double percent = std::stod(accuracy);
+        overrides.push_back(
+          {declared.split(of_model), dealii::Utilities::to_string(percent / 100.), "Accuracy = " + accuracy, false, "", 0});
+        lines.push_back("model: " + of_model + " = " + overrides.back().value);
+      }
     apply_statements(prm, overrides);
     return lines;
   }

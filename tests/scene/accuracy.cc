@@ -88,6 +88,18 @@ TEST_F(Accuracy, OffChangesNothing)
     EXPECT_EQ(value(name), value_before) << name;
 }
 
+TEST_F(Accuracy, IsThatOfAnAutomaticModelToo)
+{
+  declare("Model", "full");
+  declare("Automatic model/Accuracy", "0.01");
+  read({"Accuracy=10 %"});
+  EXPECT_EQ(value("Automatic model/Accuracy"), "0.01");
+  EXPECT_TRUE(has(read({"Accuracy=10 %", "Model=auto"}), "model: Automatic model/Accuracy = 0.1"));
+  EXPECT_EQ(value("Automatic model/Accuracy"), "0.1");
+  read({"Accuracy=10 %", "Model=auto", "Automatic model/Accuracy=0.5"});
+  EXPECT_EQ(value("Automatic model/Accuracy"), "0.5");
+}
+
 TEST_F(Accuracy, HasEveryKindAndAccuracy)
 {
   std::map<std::string, std::set<std::string>> groups;

@@ -32,6 +32,9 @@ must_fail "cannot understand '-'; it may use" 1 --check tiny.prm --set 'Boundary
 [ "$(wc -l <error-output)" -eq 1 ] || fail "deal.II prints something of its own"
 
 warned "'10\*L' uses L, the height of the bed .* which is 0" --set Grains/Deposit=none --set 'Boundary conditions/Pressure=top: 10*L'
+warned 'all nodes of the mesh are on walls' --set 'Grains/Deposit=none' --set 'Domain/Coarse cell size=0.004' --set 'Mesh refinement/Criteria=function' \
+  --set 'Mesh refinement/Criteria: function/Cell size=100' --set 'Boundary conditions/No-slip walls=top, bottom' \
+  --set 'Boundary conditions/Pressure=left: 1; right: 0' --set 'Boundary conditions/Add hydrostatic pressure=left, right'
 warned "'bottom' is to move at times that this run, from 0 to 0.002 s, does not have" "${dry[@]}" --set 'Grains/Motion of walls=bottom: 0, 1e-6 from 100'
 warned "ask for cells of 0.1 mean grain diameters, but 'Finest cell size' is 0.25" --set 'Mesh refinement/Criteria: uniform/Cell size=0.1'
 must_fail "Extra walls: ': 0,0.003 -> 0.004,0.003' has no name" 1 --check tiny.prm --set 'Grains/Extra walls=: 0,0.003 -> 0.004,0.003'
