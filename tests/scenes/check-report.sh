@@ -42,7 +42,7 @@ limit_of() { # ARGUMENTS...
   grep -oE 'Time scheme = .*: the time step .*|Time scheme = .*: it is unstable at any time step at void fraction .*' error-output || true
 }
 suspension=("$SCENES/suspension.prm" --set 'Coupling/Time scheme=explicit')
-found=$(limit_of "${suspension[@]}" --set 'Time/Time step=0.01')
+found=$(limit_of "${suspension[@]}" --set 'Time/Time step=0.01' --set 'Time/End time=0.1')
 /usr/bin/python3 - "$found" "$(number 'suspension of void fraction ([0-9.e-]+)')" "$(number 'tau_p [(]([0-9.e-]+) s')" <<'END' || fail "limit of the time step: '$found'"
 import re, sys
 mean, tau_p = map(float, sys.argv[2:])
@@ -55,7 +55,7 @@ assert abs(number("s is ([0-9.e+-]+) times its limit") / (0.01 / limit) - 1) < 0
 assert abs(number("use iterated, .*, or Time/Time step <= ([0-9.e-]+) [(]at t = 0 s") / limit - 1) < 0.08, limit
 END
 [ -z "$(limit_of "${suspension[@]}" --set 'Time/Time step=0.001')" ] || fail "a warning of a time step that is stable"
-[ -z "$(limit_of "$SCENES/suspension.prm" --set 'Time/Time step=0.01')" ] || fail "a warning of a scheme without a limit"
+[ -z "$(limit_of "$SCENES/suspension.prm" --set 'Time/Time step=0.01' --set 'Time/End time=0.1')" ] || fail "a warning of a scheme without a limit"
 limit_of bed.prm --set 'Coupling/Time scheme=implicit drag' --set 'Grains/Fluid packing fraction=0' |
   grep -qE 'at void fraction 0\.[12][0-9]*, that of the densest tenth of the grains, since this is below 1/\(1 \+ s\) = 0\.28 .*use iterated, which has no such limit' ||
   fail "no warning of a bed that has no stable time step"
@@ -82,7 +82,7 @@ must_run 1 --check "$SCENES/suspension.prm" --set Grains/Fixed=true
 grep -q '^  bed ' screen-output || fail "a fixed bed"
 
 # Darcy's law of the run
-must_run 1 bed.prm --set 'Grains/Fixed=true' --set 'Time/Time step=0.01' --set 'Time/End time=0.2' --set 'Boundary conditions/Pressure=top: 0; bottom: rho*g*H + 0.05*rho*g*L'
+must_run 1 bed.prm --set 'Grains/Fixed=true' --set 'Time/Time step=0.01' --set 'Time/End time=0.1' --set 'Time/End time=0.2' --set 'Boundary conditions/Pressure=top: 0; bottom: rho*g*H + 0.05*rho*g*L'
 /usr/bin/python3 - "$(number 'permeability ([0-9.e-]+) m')" "$(number 'bed +([0-9.e-]+) m to')" "$(number 'bed +[0-9.e-]+ m to ([0-9.e-]+) m')" <<'END' || fail "the permeability is not the run's"
 import csv, sys
 permeability, bottom, top = map(float, sys.argv[1:])
