@@ -2,6 +2,8 @@
 
 #include "accuracy_table.h"
 
+#include <alluvium/utilities/digits.h>
+
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
@@ -171,7 +173,7 @@ namespace alluvium::scene
       {
         const double percent = std::stod(accuracy);
         overrides.push_back(
-          {declared.split(of_model), dealii::Utilities::to_string(percent / 100.), "Accuracy = " + accuracy, false, "", 0});
+          {declared.split(of_model), in_digits(percent / 100.), "Accuracy = " + accuracy, false, "", 0});
         lines.push_back("model: " + of_model + " = " + overrides.back().value);
       }
     apply_statements(prm, overrides);

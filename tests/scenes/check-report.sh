@@ -82,7 +82,8 @@ must_run 1 --check "$SCENES/suspension.prm" --set Grains/Fixed=true
 grep -q '^  bed ' screen-output || fail "a fixed bed"
 
 # Darcy's law of the run
-must_run 1 bed.prm --set 'Grains/Fixed=true' --set 'Time/Time step=0.01' --set 'Time/End time=0.1' --set 'Time/End time=0.2' --set 'Boundary conditions/Pressure=top: 0; bottom: rho*g*H + 0.05*rho*g*L'
+rm -r output
+must_run 1 bed.prm --set 'Grains/Fixed=true' --set 'Time/Time step=0.01' --set 'Time/End time=0.2' --set 'Boundary conditions/Pressure=top: 0; bottom: rho*g*H + 0.05*rho*g*L'
 /usr/bin/python3 - "$(number 'permeability ([0-9.e-]+) m')" "$(number 'bed +([0-9.e-]+) m to')" "$(number 'bed +[0-9.e-]+ m to ([0-9.e-]+) m')" <<'END' || fail "the permeability is not the run's"
 import csv, sys
 permeability, bottom, top = map(float, sys.argv[1:])
