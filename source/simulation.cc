@@ -1,5 +1,6 @@
 #include <alluvium/run/check_boundaries.h>
 #include <alluvium/run/check_time_step.h>
+#include <alluvium/run/check_void_fraction.h>
 #include <alluvium/run/check_walls.h>
 #include <alluvium/run/checkpoint.h>
 #include <alluvium/run/leavers.h>
@@ -133,6 +134,7 @@ namespace alluvium
                "Output/Restart: the checkpoint is of t = " + in_digits(model.time) +
                  " s, and Time/End time = " + in_digits(end_time) + " s has passed: nothing is left to do.");
     run::check_boundaries(model, end_time);
+    run::check_void_fraction(model);
     run::check_walls(model, end_time);
     run::check_poles(model, end_time);
     std::vector<double> intervals = output.intervals();

@@ -37,6 +37,7 @@ warned 'all nodes of the mesh are on walls' --set 'Grains/Deposit=none' --set 'D
   --set 'Boundary conditions/Pressure=left: 1; right: 0' --set 'Boundary conditions/Add hydrostatic pressure=left, right'
 warned "'bottom' is to move at times that this run, from 0 to 0.002 s, does not have" "${dry[@]}" --set 'Grains/Motion of walls=bottom: 0, 1e-6 from 100'
 warned "ask for cells of 0.1 mean grain diameters, but 'Finest cell size' is 0.25" --set 'Mesh refinement/Criteria: uniform/Cell size=0.1'
+warned 'the void fraction is 0 where cells lie within a grain' --set 'Coupling/Filter radius=grain' --set 'Mesh refinement/Criteria: uniform/Cell size=0.25'
 must_fail "Extra walls: ': 0,0.003 -> 0.004,0.003' has no name" 1 --check tiny.prm --set 'Grains/Extra walls=: 0,0.003 -> 0.004,0.003'
 
 bed=("${dry[@]}" --set 'Grains/Deposit=settled bed' --set 'Grains/Deposit: settled bed/Number of grains=20' --set 'Grains/Deposit: settled bed/Cache folder=')

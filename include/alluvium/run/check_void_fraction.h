@@ -1,0 +1,9 @@
+#pragma once
+
+#include <alluvium/run/model.h>
+
+namespace alluvium::run
+{
+  /** Warn if there are nodes at which grains leave no room for the fluid, after set_up(). Collective. */
+  void check_void_fraction(Model &m);
+} // namespace alluvium::run
