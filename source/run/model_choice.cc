@@ -113,6 +113,14 @@ namespace alluvium::run
   }
 
 
+  bool ModelChoice::is_left_out(const Term term) const
+  {
+    return std::any_of(table.begin(), table.end(), [&](const Row &r) {
+      return r.term.term == term && !r.term.on && r.term.is_asked;
+    });
+  }
+
+
   ModelChoice::Row *ModelChoice::row(const Term term)
   {
     const auto found = std::find_if(table.begin(), table.end(), [&](const Row &r) { return r.term.term == term; });
@@ -165,12 +173,8 @@ namespace alluvium::run
   /** What the terms that the flow is solved without would do to it. */
   void ModelChoice::watch_flow(Model &model, std::vector<Switch> &switched)
   {
-    const auto left_out = [&](const Term term) {
-      const Row *r = row(term);
-      return r != nullptr && !r->term.on && r->term.is_asked;
-    };
     constexpr unsigned int interval = 10; // steps: it costs as much as to assemble them
-    if (!(left_out(Term::convection) || left_out(Term::inertia) || left_out(Term::viscous_stress)) ||
+    if (!(is_left_out(Term::convection) || is_left_out(Term::inertia) || is_left_out(Term::viscous_stress)) ||
         model.n_steps <= n_first_steps || model.coupling.report().steady)
       return;
     // between them a flow that changes by much, by a pulse say
@@ -190,7 +194,7 @@ namespace alluvium::run
       return;
     const double bound = 0.1 * accuracy;
     const auto   look  = [&](const Term term, const double size) {
-      if (!left_out(term))
+      if (!is_left_out(term))
         return;
       Row &r = *row(term);
       r.most = std::max(r.most, size / scale);
@@ -211,9 +215,6 @@ namespace alluvium::run
     const double bound = 0.1 * accuracy;
     if (model.has_fluid)
       watch_flow(model, switched);
-    const auto is_left_out = [&](const Term term) {
-      return row(term) != nullptr && !row(term)->term.on && row(term)->term.is_asked;
-    };
     if (model.grains_move && is_left_out(Term::contacts) && !model.contacts.are_left_out())
       {
         switch_on(

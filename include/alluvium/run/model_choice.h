@@ -87,6 +87,7 @@ namespace alluvium::run
 
   private:
     bool is_on(Term term) const;
+    bool is_left_out(Term term) const; // though the parameters ask for it
     Row *row(Term term);
     void apply(Model &model) const;
     void switch_on(Term term, double estimate, const std::string &because, Model &model, std::vector<Switch> &switched);
