@@ -38,7 +38,7 @@ def save(figure, folder, name):
 
 def draw(study, results, folder):
     style()
-    return (draw_map if study.chart.kind == "map" else draw_work_precision)(study, results, folder)
+    return {"map": draw_map, "curves": draw_curves, "work-precision": draw_work_precision}[study.chart.kind](study, results, folder)
 
 
 def panels(n, columns, size, legend_height):
@@ -182,6 +182,44 @@ def overlap(a, b):
 def dark(colour):
     """Text in a colour of COLOURS needs more contrast than a mark."""
     return tuple(0.72 * c for c in matplotlib.colors.to_rgb(colour))
+
+
+# --- curves
+
+def draw_curves(study, results, folder):
+    """One panel a name; a colour a point, a line style a series; what is beside them in black and grey."""
+    chart = study.chart
+    points = [r for r in results if r.curves]
+    series = list(dict.fromkeys(r.point.series for r in points))
+    extra = {name: list(chart.beside(name, results)) if chart.beside else [] for name in chart.panels}
+    names = [name for name in chart.panels if extra[name] or any(name in r.curves for r in points)]
+    if not names:
+        return []
+    columns = min(chart.columns, len(names))
+    labels = list(dict.fromkeys([r.point.name for r in points] + [label for name in names for label, *_ in extra[name]]))
+    figure, axes, place = panels(len(names), columns, (12, 6.4) if columns == 1 else (7.4, 5.6), 0.34 * math.ceil(len(labels) / 2) + 0.1)
+    colours = {r.point.name: COLOURS[i % len(COLOURS)] for i, r in enumerate(points)}
+    grey = {label: COLOURS[i % len(COLOURS)] if not points else ("black", "0.45", "0.7")[i % 3]
+            for i, label in enumerate(dict.fromkeys(label for name in names for label, *_ in extra[name]))}
+    handles = {}
+    for axis, name in zip(axes, names):
+        for r in points:
+            if name in r.curves:
+                style = ["-", "--", ":", "-."][series.index(r.point.series) % 4]
+                handles[r.point.name if r.point.shown is None else r.point.shown], = axis.plot(*r.curves[name], style, color=colours[r.point.name], lw=2)
+        for i, (label, xs, ys, way) in enumerate(extra[name]):
+            look = {"line": dict(ls="--" if points else "-", lw=2), "marks": dict(ls="", marker=MARKERS[i % len(MARKERS)], ms=10),
+                    "both": dict(ls=":", lw=1.5, marker=MARKERS[i % len(MARKERS)], ms=9)}[way]
+            handles[label], = axis.plot(xs, ys, color=grey[label], mec="white", mew=0.7, zorder=4 if way != "line" else 2, **look)
+        for way, side, scale in (("x", axis.xaxis, axis.set_xscale), ("y", axis.yaxis, axis.set_yscale)):
+            if way in chart.log.get(name, ""):
+                scale("log")
+                side.set_major_locator(LogLocator(subs=(1, 2, 5)))
+                plain(side)
+        axis.set(title=name, xlabel=chart.panels[name][0], ylabel=chart.panels[name][1])
+        axis.grid(alpha=0.3)
+    place.legend(handles.values(), handles.keys(), loc="center", ncol=max(1, place.columns), frameon=False)
+    return save(figure, folder, study.name)
 
 
 # --- maps

@@ -34,7 +34,8 @@ def libraries(alluvium):
 
 
 def commands(study):
-    return "contrib/lab %s" % study.name
+    heavy = [p for p in study.points(False) if p.heavy]
+    return "contrib/lab %s%s" % (study.name, " --heavy" if heavy else "")
 
 
 def accuracy_table(study, results):

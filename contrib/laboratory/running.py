@@ -69,6 +69,10 @@ class Runner:
     def file(self):
         return os.path.join(self.target, "results.csv")
 
+    @property
+    def file_of_curves(self):
+        return os.path.join(self.target, "curves.csv")
+
     # --- what is kept
 
     def key(self, point):
@@ -76,7 +80,9 @@ class Runner:
         what = [self.identity, sorted((k, sweeps._text(v)) for k, v in point.settings.items()), point.command, sorted(point.files.items()), self.limit]
         if not point.command:
             what.append(scene_text(os.path.join(self.study.folder, point.scene)))
-        what.append(inspect.getsource(self.study.module.measure))
+        if point.ranks > 1:
+            what.append(point.ranks)
+        what += [inspect.getsource(getattr(self.study.module, name)) for name in ("measure", "curves") if self.study.get(name)]
         return hashlib.sha256(json.dumps(what, default=str).encode()).hexdigest()[:16]
 
     def write(self, results):
@@ -94,19 +100,34 @@ class Runner:
                                  r.status, r.exit_code, r.reason, "%.3f" % r.cpu_s] + [("%.4g" % r.errors[n]) if n in r.errors else "" for n in errors]
                                 + [repr(r.values[n]) if n in r.values else "" for n in values] + [settings, r.version, r.key])
         os.replace(self.file + ".new", self.file)
+        if not any(r.curves for r in results):
+            return
+        with open(self.file_of_curves + ".new", "w", newline="") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(["key", "series", "label", "panel", "x", "y"])
+            for r in results:
+                for panel, (xs, ys) in r.curves.items():
+                    writer.writerows([r.key, r.point.series, r.point.label, panel, "%.6g" % x, "%.6g" % y] for x, y in zip(xs, ys))
+        os.replace(self.file_of_curves + ".new", self.file_of_curves)
 
     # --- running
 
-    def run(self, quick=False, again=False):
-        """Results of all points, run or known."""
+    def run(self, quick=False, again=False, heavy=False, given=None):
+        """Results of all points: run, known, or read from what somebody else has run, `given` {label: folder}."""
         points = self.study.points(quick)
         known = {} if again else {row["key"]: row for row in read_rows(self.file) if row["reason"] != INTERRUPTED}
+        curves = read_curves(self.file_of_curves)
+        of_any_version = {(row["series"], row["label"]): row for row in read_rows(self.file)}
+        if not heavy:
+            points = [p for p in points if not p.heavy or (p.series, p.label) in of_any_version or p.label in (given or {})]
         took = {(row["series"], row["label"]): float(row["cpu_s"]) for row in read_rows(self.file)}  # also of other versions
         results, todo = {}, []
         for i, point in enumerate(points):
-            row = known.get(self.key(point))
-            if row:
-                results[i] = from_row(row, point)
+            row = known.get(self.key(point)) or (not heavy and point.heavy and of_any_version.get((point.series, point.label)))
+            if point.label in (given or {}):
+                results[i] = self.read(point, given[point.label])
+            elif row:
+                results[i] = from_row(row, point, curves)
             else:
                 todo.append(i)
         self.say("%s: %d points, %d to run" % (self.study.name, len(points), len(todo)))
@@ -143,7 +164,8 @@ class Runner:
     def known(self, quick=False):
         """What results.csv has of the study's points, of whatever version."""
         rows = {(row["series"], row["label"]): row for row in read_rows(self.file)}
-        found = [from_row(rows[p.series, p.label], p) for p in self.study.points(quick) if (p.series, p.label) in rows]
+        curves = read_curves(self.file_of_curves)
+        found = [from_row(rows[p.series, p.label], p, curves) for p in self.study.points(quick) if (p.series, p.label) in rows]
         return self.with_taken(found, quick)
 
     def with_taken(self, results, quick):
@@ -178,7 +200,7 @@ class Runner:
             output = os.path.join(folder, "output")
             settings = {"Output/Interval of pictures": 0, "Grains/Deposit: settled bed/Cache folder": self.deposits,
                         **{name: filled(value) for name, value in point.settings.items()}}
-            command = sweeps.command(os.path.join(self.study.folder, point.scene), settings, output, alluvium=self.alluvium)
+            command = sweeps.command(os.path.join(self.study.folder, point.scene), settings, output, point.ranks, self.alluvium)
         printed = os.path.join(folder, "printed")
         try:
             exit_code, cpu_s = self.call(command, printed, folder)
@@ -189,11 +211,12 @@ class Runner:
         with open(printed, errors="replace") as file:
             text = file.read()
         status, reason, values = ("done", "", {}) if exit_code == 0 else ("failed", self.why(exit_code, output, text), {})
+        curves = {}
         if exit_code in (-signal.SIGINT, -signal.SIGTERM) or (not point.command and Run(output).summary.get("ended") == "interrupted"):
             status, reason = "failed", INTERRUPTED
         if status == "done" or self.study.get("measure_failed", False):
             try:
-                values = {name: float(value) for name, value in self.study.module.measure(Printed(output, text) if point.command else Run(output), point).items()}
+                values, curves = self.measured(Printed(output, text) if point.command else Run(output), point)
                 bad = [name for name, value in values.items() if not math.isfinite(value)]
                 if status == "done" and bad:
                     status, reason = "failed", "nothing was measured: %s" % ", ".join(bad)
@@ -202,7 +225,22 @@ class Runner:
                     status, reason = "failed", "nothing was measured: %s: %s" % (type(error).__name__, error)
         values = {name: value for name, value in values.items() if math.isfinite(value)}
         shutil.rmtree(folder, ignore_errors=True)
-        return Result(dataclasses.replace(point), status, exit_code, reason, cpu_s, values, self.version, key)
+        return Result(dataclasses.replace(point), status, exit_code, reason, cpu_s, values, self.version, key, curves=curves)
+
+    def measured(self, run, point):
+        """Values and curves of a run."""
+        curves = self.study.get("curves", lambda run, point: {})(run, point)
+        return ({name: float(value) for name, value in self.study.module.measure(run, point).items()},
+                {panel: ([float(x) for x in xs], [float(y) for y in ys]) for panel, (xs, ys) in curves.items()})
+
+    def read(self, point, folder):
+        """The result of a point that somebody has run into this folder."""
+        run = Run(folder)
+        if not run.has_finished:
+            raise SystemExit("lab: the run in %s has not finished" % folder)
+        values, curves = self.measured(run, point)
+        cpu_s = sum(part["cpu_s"] for name, part in run.summary["timing"].items() if ": " not in name)
+        return Result(point, "done", 0, "", cpu_s, values, run.summary.get("version", self.version), self.key(point), curves=curves)
 
     def call(self, command, printed, folder):
         """Exit code (negative: a signal's) and CPU time, user and system, of a command."""
@@ -235,9 +273,20 @@ def read_rows(name):
         return list(csv.DictReader(file))
 
 
-def from_row(row, point):
+def read_curves(name):
+    """{key: {panel: (xs, ys)}} of curves.csv."""
+    found = {}
+    for row in read_rows(name):
+        xs, ys = found.setdefault(row["key"], {}).setdefault(row["panel"], ([], []))
+        xs.append(float(row["x"]))
+        ys.append(float(row["y"]))
+    return found
+
+
+def from_row(row, point, curves):
     values = {name[7:]: float(value) for name, value in row.items() if name.startswith("value: ") and value}
-    return Result(point, row["status"], int(row["exit_code"]), row["reason"], float(row["cpu_s"]), values, row["version"], row["key"])
+    return Result(point, row["status"], int(row["exit_code"]), row["reason"], float(row["cpu_s"]), values, row["version"], row["key"],
+                  curves=curves.get(row["key"], {}))
 
 
 def describe(result):

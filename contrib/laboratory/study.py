@@ -27,6 +27,8 @@ class Point:
     files: dict = dataclasses.field(default_factory=dict)
     reference: bool = False
     default: bool = False  # what the program does if nobody says otherwise
+    ranks: int = 1
+    heavy: bool = False  # run with --heavy only; else what is known of it is shown, of whatever version
     shown: Optional[str] = None  # beside it on the chart; default: the label
 
     @property
@@ -47,6 +49,7 @@ class Result:
     version: str
     key: str
     errors: dict = dataclasses.field(default_factory=dict)
+    curves: dict = dataclasses.field(default_factory=dict)  # {panel: (xs, ys)}
 
     @property
     def done(self):
@@ -77,6 +80,17 @@ class Map:
     good: str = ""  # what points up to the bound, and above it, are called
     above: str = ""
     words: dict = dataclasses.field(default_factory=dict)  # {value: word}, where the value counts outcomes
+
+
+@dataclasses.dataclass
+class Curves:
+    """Curves beside each other: those that the study's curves(run, point) gives of a run, and those that `beside` adds."""
+
+    kind = "curves"
+    panels: dict = dataclasses.field(default_factory=dict)  # {name: (title of x, title of y)}
+    log: dict = dataclasses.field(default_factory=dict)  # {name: 'x', 'y' or 'xy'}
+    beside: Optional[Callable] = None  # beside(panel, results) yields (label, xs, ys, 'line' or 'marks' or 'both'): theory, literature, values over a parameter
+    columns: int = 2
 
 
 class Missing(Exception):
