@@ -217,6 +217,7 @@ class Runner:
         if status == "done" or self.study.get("measure_failed", False):
             try:
                 values, curves = self.measured(Printed(output, text) if point.command else Run(output), point)
+                self.keep(output, point)
                 bad = [name for name, value in values.items() if not math.isfinite(value)]
                 if status == "done" and bad:
                     status, reason = "failed", "nothing was measured: %s" % ", ".join(bad)
@@ -233,12 +234,18 @@ class Runner:
         return ({name: float(value) for name, value in self.study.module.measure(run, point).items()},
                 {panel: ([float(x) for x in xs], [float(y) for y in ys]) for panel, (xs, ys) in curves.items()})
 
+    def keep(self, folder, point):
+        """What the study wants to have of a run's folder, beside its page."""
+        if self.study.get("keep"):
+            self.study.module.keep(folder, point, self.target)
+
     def read(self, point, folder):
         """The result of a point that somebody has run into this folder."""
         run = Run(folder)
         if not run.has_finished:
             raise SystemExit("lab: the run in %s has not finished" % folder)
         values, curves = self.measured(run, point)
+        self.keep(folder, point)
         cpu_s = sum(part["cpu_s"] for name, part in run.summary["timing"].items() if ": " not in name)
         return Result(point, "done", 0, "", cpu_s, values, run.summary.get("version", self.version), self.key(point), curves=curves)
 

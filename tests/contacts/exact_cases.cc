@@ -217,7 +217,7 @@ TEST(ExactCases, JanssenSilo)
 }
 
 // A heavy disc on two light ones: statically determinate, whatever the ratio of their sizes. What is not so is said.
-TEST(ExactCases, BoulderOnTwoGrains)
+TEST(Boulder, OnTwoGrains)
 {
   using namespace alluvium::contacts;
   using namespace alluvium::grains;

@@ -42,7 +42,8 @@ def command(scene: str, settings: Mapping[str, Value], folder: str, ranks: int =
     """What runs a scene with settings ('Section/Name': value) into a folder, in silence."""
     words = ["mpirun", "-np", str(ranks)] if ranks > 1 else []
     words += [alluvium or program(), scene]
-    for name, value in {**settings, "Output/Output folder": folder, "Output/Overwrite output folder": True, "Output/Progress": "silent"}.items():
+    all_settings: dict[str, Value] = {**settings, "Output/Output folder": folder, "Output/Overwrite output folder": True, "Output/Progress": "silent"}
+    for name, value in all_settings.items():
         words += ["--set", "%s=%s" % (name, _text(value))]
     return words
 

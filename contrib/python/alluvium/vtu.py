@@ -29,12 +29,26 @@ class Grid:
         self.points, self.cells, self.fields = points, cells, fields
 
 
+def _attribute(entry: xml.Element, name: str) -> str:
+    value = entry.get(name)
+    if value is None:
+        raise ValueError("<%s> has no attribute '%s': is the file whole?" % (entry.tag, name))
+    return value
+
+
+def _child(entry: xml.Element, name: str) -> xml.Element:
+    found = entry.find(name)
+    if found is None:
+        raise ValueError("<%s> has no <%s>: is the file whole?" % (entry.tag, name))
+    return found
+
+
 def read_pvd(name: str) -> list[tuple[float, list[str]]]:
     """The times of a .pvd in order, each with its files."""
     folder = os.path.dirname(name)
     files: dict[float, list[str]] = {}
     for entry in xml.parse(name).iter("DataSet"):
-        files.setdefault(float(entry.get("timestep")), []).append(os.path.join(folder, entry.get("file")))
+        files.setdefault(float(_attribute(entry, "timestep")), []).append(os.path.join(folder, _attribute(entry, "file")))
     return sorted(files.items())
 
 
@@ -60,7 +74,7 @@ def read_pieces(name: str) -> list[Grid]:
         content = file.read()
 
     # Raw appended data is no XML: cut it out.
-    appended, raw = None, False
+    appended, raw = b"", False
     match = re.search(rb"<AppendedData[^>]*>\s*_", content)
     if match:
         end = content.rindex(b"</AppendedData>")
@@ -70,41 +84,41 @@ def read_pieces(name: str) -> list[Grid]:
 
     if root.get("type") == "PUnstructuredGrid":
         folder = os.path.dirname(name)
-        return [piece for entry in root.iter("Piece") for piece in read_pieces(os.path.join(folder, entry.get("Source")))]
+        return [piece for entry in root.iter("Piece") for piece in read_pieces(os.path.join(folder, _attribute(entry, "Source")))]
 
     order = "<" if root.get("byte_order", "LittleEndian") == "LittleEndian" else ">"
     header = np.dtype(order + TYPES[root.get("header_type", "UInt32")])
     compressed = root.get("compressor") is not None
 
-    def array(entry):
-        kind = np.dtype(order + TYPES[entry.get("type")])
+    def array(entry: xml.Element) -> np.ndarray:
+        kind = np.dtype(order + TYPES[_attribute(entry, "type")])
         form = entry.get("format", "ascii")
         if form == "ascii":
             data = np.array((entry.text or "").split(), dtype=kind)
         elif form == "appended" and raw:
-            data = np.frombuffer(_decode_raw(appended[int(entry.get("offset")):], header, compressed), kind)
+            data = np.frombuffer(_decode_raw(appended[int(_attribute(entry, "offset")):], header, compressed), kind)
         else:
-            text = appended[int(entry.get("offset")):] if form == "appended" else (entry.text or "").encode()
+            text = appended[int(_attribute(entry, "offset")):] if form == "appended" else (entry.text or "").encode()
             data = np.frombuffer(_decode_base64(text.strip(), header, compressed), kind)
         n = int(entry.get("NumberOfComponents") or 1)
         return data.reshape(-1, n) if n > 1 else data
 
     result = []
     for piece in root.iter("Piece"):
-        if int(piece.get("NumberOfPoints")) == 0:  # of a rank that has nothing: its arrays are not there
+        if int(_attribute(piece, "NumberOfPoints")) == 0:  # of a rank that has nothing: its arrays are not there
             continue
-        cells = {entry.get("Name"): array(entry) for entry in piece.find("Cells").iter("DataArray")}
+        cells = {_attribute(entry, "Name"): array(entry) for entry in _child(piece, "Cells").iter("DataArray")}
         ends = cells["offsets"].astype(int)
         connectivity = cells["connectivity"].astype(int)
         fields = piece.find("PointData")
-        result.append(Grid(array(piece.find("Points").find("DataArray")).reshape(-1, 3),
+        result.append(Grid(array(_child(_child(piece, "Points"), "DataArray")).reshape(-1, 3),
                            np.split(connectivity, ends[:-1]) if len(ends) else [],
-                           {entry.get("Name"): array(entry) for entry in fields.iter("DataArray")}
+                           {_attribute(entry, "Name"): array(entry) for entry in fields.iter("DataArray")}
                            if fields is not None else {}))
     return result
 
 
-def _inflate(sizes, data):
+def _inflate(sizes: np.ndarray, data: bytes) -> bytes:
     """Compressed blocks, one after the other."""
     result, at = b"", 0
     for size in sizes:
@@ -113,7 +127,7 @@ def _inflate(sizes, data):
     return result
 
 
-def _decode_raw(data, header, compressed):
+def _decode_raw(data: bytes, header: np.dtype, compressed: bool) -> bytes:
     width = header.itemsize
     first = int(np.frombuffer(data[:width], header)[0])
     if not compressed:
@@ -122,13 +136,13 @@ def _decode_raw(data, header, compressed):
     return _inflate(sizes, data[width * (3 + first):])
 
 
-def _decode_base64(text, header, compressed):
+def _decode_base64(text: bytes, header: np.dtype, compressed: bool) -> bytes:
     """The header and the data are two base64 texts if compressed, one if not."""
     if not text:
         return b""
     width = header.itemsize
 
-    def length(n_bytes):
+    def length(n_bytes: int) -> int:
         return (n_bytes + 2) // 3 * 4
 
     first = int(np.frombuffer(base64.b64decode(text[:length(width)])[:width], header)[0])

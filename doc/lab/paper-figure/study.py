@@ -8,26 +8,35 @@ The paper reads 0.69 s, 0.72 s and 22 cm off its full size, and 19 cm off the ex
 the head (s phi_m - phi_b) L, a closed form (errors of the onset are against it). What is not: the detector. A grain has to move by a diameter before it counts,
 and meanwhile the pressure rises. [How much](../ramp-and-lag/README.md) follows from the ramp; [walls](../width-and-walls/README.md) hold narrow beds longer.
 """
+import os
+import shutil
+import subprocess
+import sys
+
+from laboratory import ROOT
 from laboratory.study import Curves, Point
 
 order = 40
 scene = "../fluidised-bed/ramp.prm"
 limit = 1500
 MOTION, HEAD, FULL_MOTION, FULL_HEAD = "mass in motion, 2,000 discs", "head over the bed, 2,000 discs", "mass in motion, full size", "head over the bed, full size"
+FULL = {"full size": {}, "full size, weighs what the water sees": {"Grains/Mass follows": "fluid radius", "Time/End time": 0.55}}
 PAPER = {"first movement": 0.69, "total heave": 0.72}  # [s]; the head at the heave is around 0.22 m
 PAPER_HEAD, EXPERIMENT = 0.22, 0.19
 
 
 def beside(panel, results):
-    full = next((r for r in results if r.point.heavy and r.done), None)
-    if not full:
+    if not any(r.point.heavy and r.done for r in results):
         return
+    exact = lambda label: [100 * r.values["exact head [m]"] for r in results if r.done and r.point.label == label]
     if panel == FULL_MOTION:
         yield "the paper's first movement and heave, read from its text", list(PAPER.values()), [5, 95], "marks"
     if panel == FULL_HEAD:
         yield "the paper's first movement and heave, read from its text", [PAPER["total heave"]], [100 * PAPER_HEAD], "marks"
-        yield "the experiment's head at the heave", [0.6, 0.85], [100 * EXPERIMENT] * 2, "line"
-        yield "exact head of the onset", [0.6, 0.85], [100 * full.values["exact head [m]"]] * 2, "line"
+        yield "the experiment's head at the heave", [0.3, 0.9], [100 * EXPERIMENT] * 2, "line"
+        for label in FULL:
+            if exact(label):
+                yield "exact head of the onset", [0.3, 0.9], exact(label) * 2, "line"
 
 
 chart = Curves(panels={MOTION: ("time [s]", "mass that moved by d [%]"), HEAD: ("time [s]", "differential head [mm]"),
@@ -46,7 +55,8 @@ def points(quick):
     for h in [] if quick else [2, 1, 0.5]:
         yield Point("cells follow the faces", "%g d, following" % h, at_faces(h), default=h == 1)
     if not quick:
-        yield Point("full size, 2 ranks", "full size", scene="../../../prm/fluidised-bed-full.prm", settings={}, ranks=2, heavy=True)
+        for label, settings in FULL.items():
+            yield Point("full size, 2 ranks", label, {"Output/Interval of pictures": 0.05, **settings}, scene="../../../prm/fluidised-bed-full.prm", ranks=2, heavy=True)
 
 
 def measure(run, point):
@@ -62,9 +72,20 @@ def measure(run, point):
 def curves(run, point):
     start, scale = (0.0, 100) if point.heavy else (0.7, 1000)
     motion, head = (FULL_MOTION, FULL_HEAD) if point.heavy else (MOTION, HEAD)
-    rows = [i for i, t in enumerate(run["time_s"]) if start + t > (0.6 if point.heavy else 0.74)]
+    rows = [i for i, t in enumerate(run["time_s"]) if start + t > (0.3 if point.heavy else 0.74)]
     times = [start + run["time_s"][i] for i in rows]
     return {motion: (times, [100 * run["moved_mass_fraction"][i] for i in rows]), head: (times, [scale * run["differential_head_m"][i] for i in rows])}
+
+
+def keep(folder, point, target):
+    """Statistics, summary and the picture of the runs at full size."""
+    if not point.heavy:
+        return
+    place = os.path.join(target, "full-size" if point.label == "full size" else "full-size-light")
+    os.makedirs(place, exist_ok=True)
+    for name in ("statistics.csv", "summary.json"):
+        shutil.copy(os.path.join(folder, name), place)
+    subprocess.run([sys.executable, os.path.join(ROOT, "contrib", "plot"), folder, "--to", place, "--snapshots", "3"], check=True)
 
 
 def error(values, reference):
@@ -93,9 +114,12 @@ def says(r):
     coarse = r.done("refined at the start", "8 d")
     text = "From cells of 4 d to 0.25 d the head at the heave differs by %.1f %%, and cells of 8 d are %.1f %% off: the paper's finding, that cells hardly matter, holds. " % (
         100 * spread(r, "head at total heave [m]"), 100 * coarse.errors["the head at heave"])
-    full = next((x for x in r if x.point.heavy and x.done), None)
-    if not full:
+    full = {x.point.label: x.values for x in r if x.point.heavy and x.done}
+    if "full size" not in full:
         return text
-    v = full.values
+    v, light = full["full size"], full.get("full size, weighs what the water sees")
+    if light:
+        after = (" A bed that weighs what the water sees is carried at %.1f cm and heaves at %.3f s and %.1f cm."
+                 % (100 * light["exact head [m]"], light["total heave [s]"], 100 * light["head at total heave [m]"]))
     return text + ("At full size the bed is carried at %.1f cm, exact within %.2g %%; the first movement is seen at %.3f s, the heave at %.3f s and %.1f cm, where the paper has 0.69 s, 0.72 s and around 22 cm."
-                   % (100 * v["exact head [m]"], 100 * abs(v["onset over exact"] - 1), v["first movement [s]"], v["total heave [s]"], 100 * v["head at total heave [m]"]))
+                   % (100 * v["exact head [m]"], 100 * abs(v["onset over exact"] - 1), v["first movement [s]"], v["total heave [s]"], 100 * v["head at total heave [m]"])) + (after if light else "")
