@@ -1,6 +1,7 @@
 #!/bin/bash
 # Accuracy: the error is below what was asked, for the flux through a fixed bed and for the fall of a suspension; --check says what is
 # chosen and why, and what the scene has itself wins.
+# SLOW
 . "$SCENES/functions"
 lab="$SCENES/../../doc/lab/accuracy"
 small_bed=(--set 'Domain/Upper right corner=0.004,0.006' --set 'Grains/Deposit: settled bed/Number of grains=300')

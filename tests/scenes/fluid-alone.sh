@@ -1,6 +1,7 @@
 #!/bin/bash
 # Without a grain: plane Poiseuille flow, exact at the nodes; on triangles of a mesh file, with cells that follow the flow, on ranks,
 # over a restart. No grains by mistake is another matter.
+# SLOW
 . "$SCENES/functions"
 cat >channel.prm <<'END'
 subsection Time

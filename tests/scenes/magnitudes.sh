@@ -1,5 +1,6 @@
 #!/bin/bash
 # Numbers that no scene can have, of a wall, a grain, a fluid: the message names the parameter, or the file's line, and what was expected.
+# SLOW
 . "$SCENES/functions"
 scene_from tiny </dev/null
 refused() { # REGEX SETTING...

@@ -1,5 +1,6 @@
 #!/bin/bash
 # Inputs that are odd rather than wrong: each brings a warning, or is read as it is meant.
+# SLOW
 . "$SCENES/functions"
 scene_from tiny </dev/null
 warned() { # REGEX SETTING...

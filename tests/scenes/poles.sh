@@ -1,5 +1,6 @@
 #!/bin/bash
 # What is given as a formula in t is looked at over the time of the run before it starts, at the ends of its steps and between them.
+# SLOW
 . "$SCENES/functions"
 scene_from tiny </dev/null
 refused() { # REGEX SETTING...

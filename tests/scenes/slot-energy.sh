@@ -1,6 +1,7 @@
 #!/bin/bash
 # Through a slot a cell or some wide most of the flow leaves beside its nodes, along faces that end in a wall. The energy balance knows
 # what it takes along.
+# SLOW
 . "$SCENES/functions"
 cat >slot.prm <<'END'
 set Gravity = 0, 0
