@@ -322,7 +322,10 @@ namespace alluvium
     catch (const ExceptionBase &) // of the linear solver
       {
         if (!time_step.rescue())
-          throw;
+          {
+            run::blame_void_fraction(m);
+            throw;
+          }
       }
     return false;
   }

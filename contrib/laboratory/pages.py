@@ -140,8 +140,18 @@ def index(studies, results_of, folder):
         file.write(start + MARKS[0] + "\n\n" + "\n".join(out) + MARKS[1] + rest.split(MARKS[1])[1])
 
 
+def reports(folder):
+    """[(title, file)] of the dated measurements in doc/reports."""
+    found = []
+    for name in sorted(os.listdir(folder)):
+        if name.endswith(".md"):
+            with open(os.path.join(folder, name)) as file:
+                found.append((file.readline().lstrip("# ").strip(), os.path.join(folder, name)))
+    return found
+
+
 def report(pages, target, alluvium):
-    """One HTML file of pages [(title, folder)], pictures inside it."""
+    """One HTML file of pages [(title, file)], pictures inside it."""
     try:
         import markdown_it
     except ImportError:
@@ -152,8 +162,9 @@ def report(pages, target, alluvium):
         style = file.read()
     body = ["<h1>Laboratory</h1><p>Repository at %s. %s. On %s.</p><ul>" % (html.escape(commit), html.escape(libraries(alluvium)), html.escape(hardware()))]
     body += ['<li><a href="#s%d">%s</a></li>' % (i, html.escape(title)) for i, (title, _) in enumerate(pages)] + ["</ul>"]
-    for i, (_, folder) in enumerate(pages):
-        with open(os.path.join(folder, "README.md")) as file:
+    for i, (_, name) in enumerate(pages):
+        folder = os.path.dirname(name)
+        with open(name) as file:
             text = re.sub(r"<!--.*?-->", "", file.read(), flags=re.S)
         text = re.sub(r"\[(!\[.*?\]\(.*?\))\]\(.*?\)", r"\1", text)  # the picture's own link
         text = re.sub(r"(?<!!)\[([^\]]*)\]\((?![a-z]+:)[^)]*\)", r"\1", text)  # links into the repository lead nowhere from here

@@ -246,8 +246,10 @@ class Runner:
             raise SystemExit("lab: the run in %s has not finished" % folder)
         values, curves = self.measured(run, point)
         self.keep(folder, point)
-        cpu_s = sum(part["cpu_s"] for name, part in run.summary["timing"].items() if ": " not in name)
-        return Result(point, "done", 0, "", cpu_s, values, run.summary.get("version", self.version), self.key(point), curves=curves)
+        cpu_s = point.ranks * sum(part["cpu_s"] for name, part in run.summary["timing"].items() if ": " not in name)
+        with open(os.path.join(folder, "log.txt")) as file:
+            version = re.search(r"alluvium \S+ \(.*?\)", file.readline())
+        return Result(point, "done", 0, "", cpu_s, values, version[0] if version else "", self.key(point), curves=curves)
 
     def call(self, command, printed, folder):
         """Exit code (negative: a signal's) and CPU time, user and system, of a command."""
@@ -290,10 +292,10 @@ def read_curves(name):
     return found
 
 
-def from_row(row, point, curves):
+def from_row(row, point, curves=None):
     values = {name[7:]: float(value) for name, value in row.items() if name.startswith("value: ") and value}
     return Result(point, row["status"], int(row["exit_code"]), row["reason"], float(row["cpu_s"]), values, row["version"], row["key"],
-                  curves=curves.get(row["key"], {}))
+                  curves=(curves or {}).get(row["key"], {}))
 
 
 def describe(result):
