@@ -72,9 +72,9 @@ def measure(run, point):
 def curves(run, point):
     start, scale = (0.0, 100) if point.heavy else (0.7, 1000)
     motion, head = (FULL_MOTION, FULL_HEAD) if point.heavy else (MOTION, HEAD)
-    rows = [i for i, t in enumerate(run["time_s"]) if start + t > (0.3 if point.heavy else 0.74)]
-    times = [start + run["time_s"][i] for i in rows]
-    return {motion: (times, [100 * run["moved_mass_fraction"][i] for i in rows]), head: (times, [scale * run["differential_head_m"][i] for i in rows])}
+    rows = [i for i, t in enumerate(run.time) if start + t > (0.3 if point.heavy else 0.74)]
+    times = [start + run.time[i] for i in rows]
+    return {motion: (times, [100 * run.columns["moved_mass_fraction"][i] for i in rows]), head: (times, [scale * run.columns["differential_head_m"][i] for i in rows])}
 
 
 def keep(folder, point, target):

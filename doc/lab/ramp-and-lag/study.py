@@ -53,7 +53,7 @@ def measure(run, point):
     ramp = float(point.label.split()[0])
     onset = run.summary["onset by force balance"]
     imposed = lambda event: (0.75 + run.summary[event]["time_s"] / ramp) * H
-    lag = formula(ramp, onset["exact_head_m"], run["bed_height_m"][0])
+    lag = formula(ramp, onset["exact_head_m"], run.columns["bed_height_m"][0])
     first, heave = (imposed(event) - onset["exact_head_m"] for event in ("first movement", "total heave"))
     return {"onset over exact": onset["over_exact"], "formula [m]": lag, "lag of the first movement [m]": first, "lag of the heave [m]": heave,
             "over the formula": first / lag, "heave over the formula": heave / lag}

@@ -54,7 +54,7 @@ def measure(run, point):
     onset, heave = summary["onset by force balance"], summary["total heave"]
     exact = onset["exact_head_m"]
     width = float(str(point.settings["Domain/Upper right corner"]).split(",")[0])
-    return {"width over d": width / D, "exact head [m]": exact, "onset over exact": onset["over_exact"], "bed height [m]": run["bed_height_m"][0],
+    return {"width over d": width / D, "exact head [m]": exact, "onset over exact": onset["over_exact"], "bed height [m]": run.columns["bed_height_m"][0],
             "head at first movement [m]": summary["first movement"]["differential_head_m"], "head at heave [m]": heave["differential_head_m"],
             "heave over exact": heave["differential_head_m"] / exact, "heave [s]": heave["time_s"]}
 
@@ -62,9 +62,9 @@ def measure(run, point):
 def curves(run, point):
     """Over the differential head, since scenes of other height and mass have other times."""
     exact = run.summary["onset by force balance"]["exact_head_m"]
-    rows = [i for i, head in enumerate(run["differential_head_m"]) if head > 0.9 * exact]
-    return {MOTION: ([run["differential_head_m"][i] / exact for i in rows], [100 * run["moved_mass_fraction"][i] for i in rows]),
-            SUPPORT: ([run["differential_head_m"][i] / exact for i in rows], [run["floor_force_over_weight"][i] for i in rows])}
+    rows = [i for i, head in enumerate(run.columns["differential_head_m"]) if head > 0.9 * exact]
+    return {MOTION: ([run.columns["differential_head_m"][i] / exact for i in rows], [100 * run.columns["moved_mass_fraction"][i] for i in rows]),
+            SUPPORT: ([run.columns["differential_head_m"][i] / exact for i in rows], [run.columns["floor_force_over_weight"][i] for i in rows])}
 
 
 def claims(r):
