@@ -22,6 +22,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -107,9 +108,10 @@ namespace
     {
       const double rho = constants.at("rho"), g = constants.at("g");
       check_user(length > 0. && depth > 0.,
-                 "The boundary condition 'linear wave' needs a 'Wave length' and a 'Depth'.");
+                 "The boundary condition 'linear wave' needs a 'Wave length' and a 'Depth' above 0.");
       check_user(amplitude < 0.1 * depth && amplitude < 0.05 * length,
-                 "The boundary condition 'linear wave': the amplitude is no longer small against depth and length.");
+                 "The boundary condition 'linear wave': 'Amplitude' is " + std::to_string(amplitude) +
+                   " m; waves of small amplitude have less than a tenth of 'Depth' and a twentieth of 'Wave length'.");
       k        = 2. * numbers::PI / length;
       omega    = std::sqrt(g * k * std::tanh(k * depth));
       pressure = rho * g * amplitude / std::cosh(k * depth);
