@@ -87,8 +87,8 @@ namespace
   //
   //   p(x, t) = rho g a / cosh(k h) cos(k x - omega t),    k = 2 pi / lambda,
   //
-  // on the bed (Airy), with the dispersion relation omega^2 = g k tanh(k h). A formula in the scene could say that, too,
-  // in a long line with all numbers in it. Here they are parameters, and are checked.
+  // on the bed (Airy), with the dispersion relation omega^2 = g k tanh(k h). A formula in the scene could say that,
+  // too, in a long line with all numbers in it. Here they are parameters, and are checked.
   class LinearWave : public fluid::BoundaryPlugin
   {
   public:
