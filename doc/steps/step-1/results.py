@@ -43,7 +43,7 @@ def draw(step, run):
     left.legend(loc=(0.38, 0.62))
     right.plot(columns["time_s"], columns["fluid_force_over_weight"], label="water")
     right.plot(columns["time_s"], columns["floor_force_over_weight"], label="floor")
-    right.set(xlabel="time [s]", ylabel="share of the reduced weight")
+    right.set(xlabel="time [s]", ylabel="share of the submerged weight")
     right.legend()
     step.picture(figure, "curves.png")
 
@@ -63,7 +63,7 @@ def results(step):
     if not step.short:
         done = columns["time_s"][np.nonzero(columns["settling_speed_m_per_s"][1:] < 1e-4)[0][0] + 1]
         step.number("done", done, 0.05, "grains sink slower than 0.1 mm/s from here on [s]")
-        step.number("floor", run.last("floor_force_over_weight"), 1e-3, "share of the reduced weight on the floor at the end")
+        step.number("floor", run.last("floor_force_over_weight"), 1e-3, "share of the submerged weight on the floor at the end")
         step.number("height", 1e3 * run.last("bed_height_m"), 0.05, "height of the deposit [mm]")
         step.number("void", run.last("smallest_void_fraction"), 0.02, "smallest void fraction at the end")
         step.number("main_cpu", run.cpu("fluid", "contacts", "pictures", "observers", "set-up", "checkpoints"), steps.FREE, "CPU seconds of the run")

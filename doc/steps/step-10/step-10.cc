@@ -16,6 +16,7 @@
 #include <alluvium/utilities/failure.h>
 #include <alluvium/utilities/mpi_environment.h>
 #include <alluvium/utilities/timers.h>
+#include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
@@ -23,6 +24,7 @@
 #include <deal.II/distributed/tria.h>
 #include <deal.II/grid/grid_generator.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -66,6 +68,7 @@ grains::GrainArrays block_of_grains()
 void write_grains(const grains::GrainArrays &grains, const std::string &name)
 {
   std::FILE *file = std::fopen(name.c_str(), "w");
+  check_user(file != nullptr, "The file '" + name + "' cannot be written.");
   std::fprintf(file, "x,y,radius\n");
   for (std::size_t k = 0; k < grains.n(); ++k)
     std::fprintf(file, "%.17g,%.17g,%.17g\n", grains.position[0][k], grains.position[1][k], grains.radius[k]);
@@ -85,8 +88,8 @@ public:
     , touched(grains.n(), 0)
   {
     make_mesh();
-    set_conditions();
     set_parameters();
+    set_conditions(); // walls are checked against the parameters of contacts
 
     // Numbers the unknowns, then makes matrices and the overlap map that belong to them: once for each mesh.
     space.attach(mesh);
@@ -109,8 +112,10 @@ public:
     conditions.set_time(time);
 
     // Cuts the grains, finds void fraction and drag, solves the fluid with the velocities that the grains are going to
-    // have, as far as that is known without contacts, and says what acts on each grain: `loads`.
-    coupling.step(conditions, grains, touched, dt, false, loads);
+    // have, as far as that is known without contacts, and says what acts on each grain: `loads`. Grains that are fixed
+    // would stay where they are whatever acts on them.
+    const bool fixed = false;
+    coupling.step(conditions, grains, touched, dt, fixed, loads);
 
     // Weight is among the loads. Contacts ask for gravity only to know what is a small force. Where contacts keep
     // grains from the velocities that the fluid has seen, the time scheme may ask for another round of both; iteration
@@ -166,7 +171,9 @@ private:
       mesh, {n_cells_across, 2 * n_cells_across}, Point<2>(), Point<2>(width, height), true);
   }
 
-  // Water and grains have walls of their own kind each. In a closed box the pressure is known up to a constant only.
+  // Water and grains have walls of their own kind each. Those of the fluid are boundaries of the mesh; those of the
+  // grains are segments from one point to another, solid on both sides, with a velocity and a name. In a closed box the
+  // pressure is known up to a constant only.
   void set_conditions()
   {
     const auto        no_slip = fluid::boundary_kind<2>("No-slip walls");
@@ -186,7 +193,7 @@ private:
   void set_parameters()
   {
     ParameterHandler prm;
-    solver.add_parameters(prm);
+    solver.add_parameters(prm); // fluid and coupling enter their sections by themselves, contacts take the present one
     coupling.add_parameters(prm);
     prm.enter_subsection("Contacts");
     contacts.add_parameters(prm);
@@ -196,6 +203,8 @@ private:
     prm.enter_subsection("Coupling");
     prm.set("Drag law", "disc");
     prm.leave_subsection();
+    // When all is set: what depends on several parameters, and plug-ins by their names.
+    contacts.parse_parameters();
     coupling.parse_parameters();
     solver.properties.density   = 1000.;
     solver.properties.viscosity = 1e-3;

@@ -4,6 +4,7 @@ import steps
 
 REFERENCE = "0.2 ms"
 TIGHT = ["Contacts/Residual tolerance=1e-6"]
+FLOOR = 1e-3  # error of the heave below which chance decides
 FACES = "Mesh refinement/Criteria: bed faces/Cell size at the %s=%g"
 
 
@@ -42,8 +43,13 @@ def draw(step, found, reference):
             mine = [(error(run), run.cpu(), label) for kind, label, run in found if kind == series]
             axis.loglog([max(e, 1e-5) for e, _, _ in mine], [c for _, c, _ in mine], marker, ms=4, lw=0.8, label=series)
             for e, c, label in mine:
-                axis.annotate(label, (max(e, 1e-5), c), fontsize=7, xytext=(3, 3), textcoords="offset points")
+                left_of_it = series == "fixed steps" and label != "10 ms"  # so that labels do not meet
+                axis.annotate(label, (max(e, 1e-5), c), fontsize=7, xytext=(-4, -3) if left_of_it else (4, 2), textcoords="offset points",
+                              ha="right" if left_of_it else "left")
         axis.set(xlabel="error of the " + title, xlim=(5e-6, 0.2))
+        axis.set_yticks((3, 10, 30), ("3", "10", "30"))
+        axis.minorticks_off()
+    right.axvspan(5e-6, FLOOR, color="0.92", zorder=0)
     left.set_ylabel("CPU time [s]")
     left.legend(fontsize=7)
     step.picture(figure, "chart.png")

@@ -42,9 +42,9 @@ def draw(step, runs, growths):
         right.semilogx([dt / tau_p() for dt in x], y, marker, ms=4, lw=1, label=scheme)
     right.axvline(limit() / tau_p(), color="0.5", lw=0.9)
     right.axhline(1, color="0.8", lw=0.9, zorder=0)
-    right.text(1.05 * limit() / tau_p(), 0.1, "2 eps^2 (1 - r)", color="0.4", fontsize=8)
+    right.text(1.08 * limit() / tau_p(), 1.75, "2 eps^2 (1 - r)", color="0.4", fontsize=8)
     right.set(xlabel="time step / tau_p", ylabel="growth per step", ylim=(0, 2))
-    right.legend(fontsize=8, loc="upper left")
+    right.legend(fontsize=8, loc="upper right")
     step.picture(figure, "growth.png")
 
 

@@ -22,6 +22,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -86,8 +87,8 @@ namespace
   //
   //   p(x, t) = rho g a / cosh(k h) cos(k x - omega t),    k = 2 pi / lambda,
   //
-  // on the bed (Airy). A formula in the scene could say that, if one knew omega. It follows from the dispersion
-  // relation omega^2 = g k tanh(k h), which plug-ins may work out, and formulas may not.
+  // on the bed (Airy), with the dispersion relation omega^2 = g k tanh(k h). A formula in the scene could say that,
+  // too, in a long line with all numbers in it. Here they are parameters, and are checked.
   class LinearWave : public fluid::BoundaryPlugin
   {
   public:
@@ -107,9 +108,10 @@ namespace
     {
       const double rho = constants.at("rho"), g = constants.at("g");
       check_user(length > 0. && depth > 0.,
-                 "The boundary condition 'linear wave' needs a 'Wave length' and a 'Depth'.");
+                 "The boundary condition 'linear wave' needs a 'Wave length' and a 'Depth' above 0.");
       check_user(amplitude < 0.1 * depth && amplitude < 0.05 * length,
-                 "The boundary condition 'linear wave': the amplitude is no longer small against depth and length.");
+                 "The boundary condition 'linear wave': 'Amplitude' is " + std::to_string(amplitude) +
+                   " m; waves of small amplitude have less than a tenth of 'Depth' and a twentieth of 'Wave length'.");
       k        = 2. * numbers::PI / length;
       omega    = std::sqrt(g * k * std::tanh(k * depth));
       pressure = rho * g * amplitude / std::cosh(k * depth);
