@@ -3,6 +3,8 @@
 import concurrent.futures
 import csv
 import dataclasses
+import functools
+import glob
 import hashlib
 import inspect
 import json
@@ -19,7 +21,7 @@ import threading
 import time
 
 from . import ROOT
-from .study import Result, Results
+from .study import NOT_INSTALLED, Result, Results
 from alluvium import Run, sweeps
 
 COLUMNS = ["series", "label", "x", "y", "status", "exit_code", "reason", "cpu_s"]  # then errors and values, then:
@@ -56,9 +58,10 @@ def scene_text(path):
 
 
 class Runner:
-    def __init__(self, study, build, target, scratch, alluvium=None, jobs=1, limit=None, say=print):
-        """`target`: folder of results.csv; `scratch`: where the runs go, and where deposits are kept."""
-        self.study, self.build, self.target, self.say, self.jobs = study, build, target, say, jobs
+    def __init__(self, study, build, target, scratch, alluvium=None, jobs=1, limit=None, say=print, peers="/usr/bin/python3"):
+        """`target`: folder of results.csv; `scratch`: where the runs go, and where deposits are kept; `peers`: the Python that has other programs."""
+        self.study, self.build, self.target, self.say, self.peers = study, build, target, say, peers
+        self.jobs = min(jobs, study.get("jobs", jobs))
         self.alluvium = alluvium or os.path.join(build, "alluvium")
         self.scratch, self.deposits = os.path.join(scratch, study.name), os.path.join(scratch, "deposits")
         self.limit = limit or study.get("limit", 300)
@@ -76,6 +79,8 @@ class Runner:
         what = [self.identity, sorted((k, sweeps._text(v)) for k, v in point.settings.items()), point.command, sorted(point.files.items()), self.limit]
         if not point.command:
             what.append(scene_text(os.path.join(self.study.folder, point.scene)))
+        if self.study.get("bed"):
+            what.append(scene_text(os.path.join(self.study.folder, self.study.get("bed"))))
         what.append(inspect.getsource(self.study.module.measure))
         return hashlib.sha256(json.dumps(what, default=str).encode()).hexdigest()[:16]
 
@@ -100,7 +105,7 @@ class Runner:
     def run(self, quick=False, again=False):
         """Results of all points, run or known."""
         points = self.study.points(quick)
-        known = {} if again else {row["key"]: row for row in read_rows(self.file) if row["reason"] != INTERRUPTED}
+        known = {} if again else {row["key"]: row for row in read_rows(self.file) if row["reason"] != INTERRUPTED and NOT_INSTALLED not in row["reason"]}
         took = {(row["series"], row["label"]): float(row["cpu_s"]) for row in read_rows(self.file)}  # also of other versions
         results, todo = {}, []
         for i, point in enumerate(points):
@@ -110,6 +115,8 @@ class Runner:
             else:
                 todo.append(i)
         self.say("%s: %d points, %d to run" % (self.study.name, len(points), len(todo)))
+        if todo and self.study.get("bed"):
+            self.bed  # before there are threads that want it
         start, waiting = time.monotonic(), set(todo)
         guess = lambda i: took.get((points[i].series, points[i].label)) or (statistics.median(took.values()) if took else 1.0)
         # the references alone: they fill the cache of deposits; without one, a run that is not counted does
@@ -157,6 +164,21 @@ class Runner:
             for child in self.children:
                 child.send_signal(signal.SIGKILL)
 
+    @functools.cached_property
+    def bed(self):
+        """The table of grains that the program keeps of the bed in the study's scene `bed`: what all programs of a comparison read."""
+        folder = os.path.join(self.scratch, "bed")
+        shutil.rmtree(folder, ignore_errors=True)
+        settings = {"Output/Interval of pictures": 0, "Grains/Deposit: settled bed/Cache folder": os.path.join(folder, "deposits")}
+        os.makedirs(folder)
+        exit_code, _ = self.call(sweeps.command(os.path.join(self.study.folder, self.study.get("bed")), settings, os.path.join(folder, "output"), alluvium=self.alluvium),
+                                 os.path.join(folder, "printed"), folder)
+        found = glob.glob(os.path.join(folder, "deposits", "*.csv"))
+        if exit_code or len(found) != 1:
+            with open(os.path.join(folder, "printed"), errors="replace") as file:
+                raise RuntimeError("the bed of %s was not made: %s" % (self.study.name, file.read()[-500:]))
+        return found[0]
+
     def one(self, point):
         key = self.key(point)
         folder = os.path.join(self.scratch, key)
@@ -165,7 +187,9 @@ class Runner:
         for name, text in point.files.items():
             with open(os.path.join(folder, name), "w") as file:
                 file.write(text)
-        places = {"{folder}": folder, "{build}": self.build, "{root}": ROOT, "{study}": self.study.folder}
+        places = {"{folder}": folder, "{build}": self.build, "{root}": ROOT, "{study}": self.study.folder, "{peers}": self.peers}
+        if self.study.get("bed"):
+            places["{bed}"] = self.bed
 
         def filled(text):
             for name, path in places.items():
@@ -191,9 +215,13 @@ class Runner:
         status, reason, values = ("done", "", {}) if exit_code == 0 else ("failed", self.why(exit_code, output, text), {})
         if exit_code in (-signal.SIGINT, -signal.SIGTERM) or (not point.command and Run(output).summary.get("ended") == "interrupted"):
             status, reason = "failed", INTERRUPTED
+        version = self.version
         if status == "done" or self.study.get("measure_failed", False):
             try:
-                values = {name: float(value) for name, value in self.study.module.measure(Printed(output, text) if point.command else Run(output), point).items()}
+                run = Printed(output, text) if point.command else Run(output)
+                values = {name: float(value) for name, value in self.study.module.measure(run, point).items()}
+                cpu_s = values.pop("CPU [s]", cpu_s)
+                version = self.study.get("program", lambda run, point: None)(run, point) or version
                 bad = [name for name, value in values.items() if not math.isfinite(value)]
                 if status == "done" and bad:
                     status, reason = "failed", "nothing was measured: %s" % ", ".join(bad)
@@ -202,7 +230,7 @@ class Runner:
                     status, reason = "failed", "nothing was measured: %s: %s" % (type(error).__name__, error)
         values = {name: value for name, value in values.items() if math.isfinite(value)}
         shutil.rmtree(folder, ignore_errors=True)
-        return Result(dataclasses.replace(point), status, exit_code, reason, cpu_s, values, self.version, key)
+        return Result(dataclasses.replace(point), status, exit_code, reason, cpu_s, values, version, key)
 
     def call(self, command, printed, folder):
         """Exit code (negative: a signal's) and CPU time, user and system, of a command."""
