@@ -11,7 +11,7 @@ import json
 import math
 import os
 import re
-import resource
+import select
 import shutil
 import signal
 import statistics
@@ -96,7 +96,7 @@ class Runner:
             for r in results:
                 settings = "; ".join("%s = %s" % (k, sweeps._text(v)) for k, v in r.point.settings.items() if k not in self.study.get("always", {}))
                 writer.writerow([r.point.series, r.point.label, "" if r.point.x is None else "%.6g" % r.point.x, "" if r.point.y is None else "%.6g" % r.point.y,
-                                 r.status, r.exit_code, r.reason, "%.3f" % r.cpu_s] + [("%.4g" % r.errors[n]) if n in r.errors else "" for n in errors]
+                                 r.status, r.exit_code, r.reason, ("%.3f" if r.cpu_s >= 1 else "%.4g") % r.cpu_s] + [("%.4g" % r.errors[n]) if n in r.errors else "" for n in errors]
                                 + [repr(r.values[n]) if n in r.values else "" for n in values] + [settings, r.version, r.key])
         os.replace(self.file + ".new", self.file)
 
@@ -234,12 +234,17 @@ class Runner:
 
     def call(self, command, printed, folder):
         """Exit code (negative: a signal's) and CPU time, user and system, of a command."""
-        limit = math.ceil(self.limit)
         with open(printed, "w") as file:
-            child = subprocess.Popen(command, stdout=file, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, env=sweeps.environment(), cwd=folder, start_new_session=True,
-                                     preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 5)))
+            child = subprocess.Popen(command, stdout=file, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, env=sweeps.environment(), cwd=folder, start_new_session=True)
         with self.lock:
             self.children.add(child)
+        # no limit of the system's: a process that has one knows its own CPU time to a tick of the clock only, and programs time their phases by it
+        ended = os.pidfd_open(child.pid)
+        while not select.select([ended], [], [], 1)[0]:
+            spent = cpu_of_group(child.pid)
+            if spent > self.limit:
+                os.killpg(child.pid, signal.SIGXCPU if spent < self.limit + 5 else signal.SIGKILL)
+        os.close(ended)
         _, status, usage = os.wait4(child.pid, 0)
         with self.lock:
             self.children.discard(child)
@@ -254,6 +259,20 @@ class Runner:
         for path in (self.scratch, self.build, ROOT):
             reason = reason.replace(path + "/", "")
         return textwrap.shorten(str(reason), 400, placeholder=" ...")
+
+
+def cpu_of_group(group):
+    """CPU time of the processes of a group [s]."""
+    ticks = 0
+    for name in glob.glob("/proc/[0-9]*/stat"):
+        try:
+            with open(name) as file:
+                fields = file.read().rsplit(")", 1)[1].split()
+        except (OSError, IndexError):  # it has ended
+            continue
+        if int(fields[2]) == group:
+            ticks += int(fields[11]) + int(fields[12])
+    return ticks / os.sysconf("SC_CLK_TCK")
 
 
 def read_rows(name):
