@@ -241,9 +241,10 @@ class Runner:
         # no limit of the system's: a process that has one knows its own CPU time to a tick of the clock only, and programs time their phases by it
         ended = os.pidfd_open(child.pid)
         while not select.select([ended], [], [], 1)[0]:
-            spent = cpu_of_group(child.pid)
-            if spent > self.limit:
-                os.killpg(child.pid, signal.SIGXCPU if spent < self.limit + 5 else signal.SIGKILL)
+            if cpu_of_group(child.pid) > self.limit:
+                child.send_signal(signal.SIGXCPU)
+                select.select([ended], [], [], 5)
+                os.killpg(child.pid, signal.SIGKILL)  # what has not listened, and what it has started
         os.close(ended)
         _, status, usage = os.wait4(child.pid, 0)
         with self.lock:
