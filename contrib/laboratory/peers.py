@@ -1,7 +1,10 @@
 """What studies with other programs share: the commands of contrib/peers, what these print, and the CPU time of our own steps."""
 
+import glob
 import json
+import os
 
+from . import ROOT
 from .study import Missing, Point
 
 CPU_SAYS = ("CPU times are user and system time of the time steps alone, as each program or its script counts them: no set-up, no meshing, no output. One program at a time, all "
@@ -12,8 +15,10 @@ SYSTEM, PEERS = "/usr/bin/python3", "{peers}"
 
 def point(series, label, script, options, python=PEERS, **more):
     """A point that runs contrib/peers/SCRIPT on the study's bed; `options`: {"--name": value}, value "" for a switch."""
+    folder = os.path.join(ROOT, "contrib", "peers")
+    reads = [os.path.join(folder, script)] + sorted(glob.glob(os.path.join(folder, "*.py")))
     words = [word for name, value in options.items() for word in ([name] if value == "" else [name, "%s" % value])]
-    return Point(series, label, command=[python, "{root}/contrib/peers/" + script, "{bed}"] + words, **more)
+    return Point(series, label, command=[python, "{root}/contrib/peers/" + script, "{bed}"] + words, reads=reads, **more)
 
 
 def said(run):

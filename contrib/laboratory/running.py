@@ -79,6 +79,9 @@ class Runner:
         what = [self.identity, sorted((k, sweeps._text(v)) for k, v in point.settings.items()), point.command, sorted(point.files.items()), self.limit]
         if not point.command:
             what.append(scene_text(os.path.join(self.study.folder, point.scene)))
+        for name in point.reads:
+            with open(name) as file:
+                what.append(file.read())
         if self.study.get("bed"):
             what.append(scene_text(os.path.join(self.study.folder, self.study.get("bed"))))
         what.append(inspect.getsource(self.study.module.measure))
@@ -162,7 +165,7 @@ class Runner:
     def kill(self):
         with self.lock:
             for child in self.children:
-                child.send_signal(signal.SIGKILL)
+                os.killpg(child.pid, signal.SIGKILL)  # with what it has started
 
     @functools.cached_property
     def bed(self):

@@ -28,6 +28,7 @@ class Point:
     scene: Optional[str] = None  # default: the study's
     command: Optional[list] = None
     files: dict = dataclasses.field(default_factory=dict)
+    reads: list = dataclasses.field(default_factory=list)  # other files that the result follows from: the point is run again if they change
     reference: bool = False
     default: bool = False  # what the program does if nobody says otherwise
     shown: Optional[str] = None  # beside it on the chart; default: the label

@@ -58,11 +58,13 @@ def report_dry(bed, states, program, **more):
     `states` yields (CPU seconds so far, x, y, vx, vy) at the start and after each window. What the walls carried follows from the momentum,
     whatever a program reports. `more` may be functions; they are called at the end.
     """
-    momentum, depths, supports, cpu = None, [], [], 0.0
+    momentum, depths, supports, cpu, started = None, [], [], 0.0, 0.0
     place = lambda z: np.average(z, weights=bed.mass)
     for window, (cpu, x, y, vx, vy) in enumerate(states):
         if not (np.isfinite(x).all() and np.isfinite(vy).all()):
             sys.exit(f"{program} has diverged at {window * WINDOW:g} s")
+        if window == round(SETTLED / WINDOW):
+            started = cpu
         last, momentum = momentum, (bed.mass * vy).sum()
         if window == 0:
             start = place(x), place(y)
@@ -71,7 +73,7 @@ def report_dry(bed, states, program, **more):
         depths.append(bed.penetration(x, y))
     late = slice(round(SETTLED / WINDOW), None)
     depths, supports = np.array(depths), np.array(supports)
-    print(json.dumps({"program": program, "cpu_s": cpu, "mean_overlap_d": depths[late, 0].mean(), "max_overlap_d": depths[:, 1].max(),
+    print(json.dumps({"program": program, "cpu_s": cpu, "cpu_after_start_s": cpu - started, "mean_overlap_d": depths[late, 0].mean(), "max_overlap_d": depths[:, 1].max(),
                       "support_error": np.sqrt(np.mean((supports[late] - 1)**2)), "support": supports[late].mean(), "spreading_m": place(x) - start[0],
                       "fall_m": start[1] - place(y), **{name: value() if callable(value) else value for name, value in more.items()}}))
 

@@ -13,7 +13,7 @@ import numpy as np
 import bed as beds
 
 try:
-    from migflow import scontact, time_integration
+    from migflow import fluid, scontact, time_integration
 except ImportError:
     beds.missing("MigFlow", "python3 -m venv ENV && ENV/bin/pip install migflow gmsh scipy, then contrib/lab --peers ENV/bin/python")
 
@@ -77,7 +77,6 @@ class BedInWater:
 
     def __init__(self, bed, options, head, gravity=beds.GRAVITY):
         """`head()`: what drives the water upwards, now [m]. Pressures are what it and gravity make of them; at the top they are 0."""
-        from migflow import fluid
         h, far, top, d = options.cells * bed.diameter, 8 * bed.diameter, options.bed_height, bed.diameter
         # finer at the faces: as our `bed faces` has it, four diameters to each side
         size = (lambda x, y: h) if not options.faces else lambda x, y: min(max(h, h + 0.3 * (min(abs(y), abs(y - top)) - 4 * d)), far)
