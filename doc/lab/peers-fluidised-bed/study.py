@@ -2,7 +2,7 @@
 
 2,000 discs of sand in water; the head rises by its water column's weight a second, from 0.7 of it, until the bed heaves. Both programs read the same table of grains,
 which ours has settled; the fluid sees 0.8 of their radii, and they weigh as discs of their full radii. Pressures, slip walls, friction and the law of the ramp are the
-same; drag, meshes and how grains are shared are those of the [study of the fixed bed](../peers-fixed-bed/README.md). The drag laws differ by more here than there, 2.5 % at the
+same; drag, meshes and how grains are shared are those of the [study of the fixed bed](../peers-fixed-bed/README.md). The drag laws differ by more here than there, 2 % at the
 onset, of which the head that lifts a bed knows nothing. Error of the onset: of the head at which the fluid carries the bed, over its closed form (s phi_m - phi_b) L. Errors of
 first movement and heave (5 % and 95 % of the mass have moved by a diameter): of the head imposed at that instant, over that of our own finest run: cells of 0.5 d
 at the bed's faces, steps of 0.1 ms, contacts to 1e-6. They hold differences of the models, too: how grains are spread, and the drag once the bed moves.
