@@ -20,7 +20,7 @@ chart = Chart()
 limit = 400
 jobs = 1
 program, cpu_says = peers.program, peers.CPU_SAYS
-floor = {"the spreading": 0.02, "the fall": 0.012}
+floor = {"the spreading": 0.042, "the fall": 0.013}  # what the reference with another contact solver differs by
 TIGHT = {"Contacts/Residual tolerance": 1e-6}
 SPREAD = "the spreading"
 
@@ -66,7 +66,14 @@ def error(values, reference):
 
 def claims(r):
     yield "chosen steps know the spreading within 10 %", lambda: r.error("Alluvium, chosen steps", "auto", SPREAD), "<", 0.1
+    yield "MigFlow in steps of 0.1 ms agrees within 10 %", lambda: r.error("MigFlow", "MigFlow 0.1 ms, 1e-8", SPREAD), "<", 0.1
+    yield "and takes more than five times the CPU time of our fixed steps of 0.2 ms", lambda: r.cpu("MigFlow", "MigFlow 0.1 ms, 1e-8") / r.cpu("Alluvium, fixed steps", "0.2 ms"), ">", 5
+    yield "LAMMPS agrees within 10 %", lambda: peers.best(r, SPREAD, "LAMMPS").errors[SPREAD], "<", 0.1
 
 
 def says(r):
-    return ""
+    auto, migflow = r.default, r.done("MigFlow", "MigFlow 0.1 ms, 1e-8")
+    lammps, siconos, hertz = (peers.best(r, SPREAD, series) for series in ("LAMMPS", "Siconos", "peclet, Hertz"))
+    told = lambda x: "%.1f %% off for %.2g s" % (100 * x.errors[SPREAD], x.cpu_s)
+    return ("The spreading is not known better than within %.1f %%, and five codes agree on it about as well: ours in chosen steps is %s of CPU time, MigFlow %s, Siconos %s of its solver alone, LAMMPS %s, peclet's soft spheres %s."
+            % (100 * r.floor(SPREAD), told(auto), told(migflow), told(siconos), told(lammps), told(hertz)))
