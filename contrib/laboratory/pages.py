@@ -13,6 +13,7 @@ from .study import number, percent
 
 TARGETS = (0.1, 0.01, 0.001)
 LINE_BEFORE = "For each error, the cheapest setting found:"
+CPU_SAYS = "CPU times are user and system time of the process, set-up included, on a machine that others used as well: trust their ratios within a fifth."
 MARKS = "<!-- studies: contrib/lab index -->", "<!-- end of studies -->"
 
 
@@ -108,7 +109,7 @@ def write_page(study, results, claims, folder, alluvium):
     out += ["## How to repeat it", "", "    %s              # %s of CPU time; with --quick less" % (commands(study), cpu_words(results)),
             "    ctest -L chart -R %s    # its claims, on fewer points" % study.name, "",
             "Data: [results.csv](results.csv); what is run: [study.py](study.py). %s (%s), on %s, one process a point." % (", ".join(versions), libraries(alluvium), hardware()),
-            "CPU times are user and system time of the process, set-up included, on a machine that others used as well: trust their ratios within a fifth.", ""]
+            study.get("cpu_says", CPU_SAYS), ""]
     os.makedirs(folder, exist_ok=True)
     with open(os.path.join(folder, "README.md"), "w") as file:
         file.write("\n".join(out))

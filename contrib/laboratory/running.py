@@ -3,13 +3,15 @@
 import concurrent.futures
 import csv
 import dataclasses
+import functools
+import glob
 import hashlib
 import inspect
 import json
 import math
 import os
 import re
-import resource
+import select
 import shutil
 import signal
 import statistics
@@ -19,7 +21,7 @@ import threading
 import time
 
 from . import ROOT
-from .study import Result, Results
+from .study import NOT_INSTALLED, Result, Results
 from alluvium import Run, sweeps
 
 COLUMNS = ["series", "label", "x", "y", "status", "exit_code", "reason", "cpu_s"]  # then errors and values, then:
@@ -56,9 +58,10 @@ def scene_text(path):
 
 
 class Runner:
-    def __init__(self, study, build, target, scratch, alluvium=None, jobs=1, limit=None, say=print):
-        """`target`: folder of results.csv; `scratch`: where the runs go, and where deposits are kept."""
-        self.study, self.build, self.target, self.say, self.jobs = study, build, target, say, jobs
+    def __init__(self, study, build, target, scratch, alluvium=None, jobs=1, limit=None, say=print, peers="/usr/bin/python3"):
+        """`target`: folder of results.csv; `scratch`: where the runs go, and where deposits are kept; `peers`: the Python that has other programs."""
+        self.study, self.build, self.target, self.say, self.peers = study, build, target, say, peers
+        self.jobs = min(jobs, study.get("jobs", jobs))
         self.alluvium = alluvium or os.path.join(build, "alluvium")
         self.scratch, self.deposits = os.path.join(scratch, study.name), os.path.join(scratch, "deposits")
         self.limit = limit or study.get("limit", 300)
@@ -82,6 +85,11 @@ class Runner:
             what.append(scene_text(os.path.join(self.study.folder, point.scene)))
         if point.ranks > 1:
             what.append(point.ranks)
+        for name in point.reads:
+            with open(name) as file:
+                what.append(file.read())
+        if self.study.get("bed"):
+            what.append(scene_text(os.path.join(self.study.folder, self.study.get("bed"))))
         what += [inspect.getsource(getattr(self.study.module, name)) for name in ("measure", "curves") if self.study.get(name)]
         return hashlib.sha256(json.dumps(what, default=str).encode()).hexdigest()[:16]
 
@@ -97,7 +105,7 @@ class Runner:
             for r in results:
                 settings = "; ".join("%s = %s" % (k, sweeps._text(v)) for k, v in r.point.settings.items() if k not in self.study.get("always", {}))
                 writer.writerow([r.point.series, r.point.label, "" if r.point.x is None else "%.6g" % r.point.x, "" if r.point.y is None else "%.6g" % r.point.y,
-                                 r.status, r.exit_code, r.reason, "%.3f" % r.cpu_s] + [("%.4g" % r.errors[n]) if n in r.errors else "" for n in errors]
+                                 r.status, r.exit_code, r.reason, ("%.3f" if r.cpu_s >= 1 else "%.4g") % r.cpu_s] + [("%.4g" % r.errors[n]) if n in r.errors else "" for n in errors]
                                 + [repr(r.values[n]) if n in r.values else "" for n in values] + [settings, r.version, r.key])
         os.replace(self.file + ".new", self.file)
         if not any(r.curves for r in results):
@@ -115,7 +123,7 @@ class Runner:
     def run(self, quick=False, again=False, heavy=False, given=None):
         """Results of all points: run, known, or read from what somebody else has run, `given` {label: folder}."""
         points = self.study.points(quick)
-        known = {} if again else {row["key"]: row for row in read_rows(self.file) if row["reason"] != INTERRUPTED}
+        known = {} if again else {row["key"]: row for row in read_rows(self.file) if row["reason"] != INTERRUPTED and NOT_INSTALLED not in row["reason"]}
         curves = read_curves(self.file_of_curves)
         of_any_version = {(row["series"], row["label"]): row for row in read_rows(self.file)}
         if not heavy:
@@ -131,6 +139,8 @@ class Runner:
             else:
                 todo.append(i)
         self.say("%s: %d points, %d to run" % (self.study.name, len(points), len(todo)))
+        if todo and self.study.get("bed"):
+            self.bed  # before there are threads that want it
         start, waiting = time.monotonic(), set(todo)
         guess = lambda i: took.get((points[i].series, points[i].label)) or (statistics.median(took.values()) if took else 1.0)
         # the references alone: they fill the cache of deposits; without one, a run that is not counted does
@@ -177,7 +187,22 @@ class Runner:
     def kill(self):
         with self.lock:
             for child in self.children:
-                child.send_signal(signal.SIGKILL)
+                os.killpg(child.pid, signal.SIGKILL)  # with what it has started
+
+    @functools.cached_property
+    def bed(self):
+        """The table of grains that the program keeps of the bed in the study's scene `bed`: what all programs of a comparison read."""
+        folder = os.path.join(self.scratch, "bed")
+        shutil.rmtree(folder, ignore_errors=True)
+        settings = {"Output/Interval of pictures": 0, "Grains/Deposit: settled bed/Cache folder": os.path.join(folder, "deposits")}
+        os.makedirs(folder)
+        exit_code, _ = self.call(sweeps.command(os.path.join(self.study.folder, self.study.get("bed")), settings, os.path.join(folder, "output"), alluvium=self.alluvium),
+                                 os.path.join(folder, "printed"), folder)
+        found = glob.glob(os.path.join(folder, "deposits", "*.csv"))
+        if exit_code or len(found) != 1:
+            with open(os.path.join(folder, "printed"), errors="replace") as file:
+                raise RuntimeError("the bed of %s was not made: %s" % (self.study.name, file.read()[-500:]))
+        return found[0]
 
     def one(self, point):
         key = self.key(point)
@@ -187,7 +212,9 @@ class Runner:
         for name, text in point.files.items():
             with open(os.path.join(folder, name), "w") as file:
                 file.write(text)
-        places = {"{folder}": folder, "{build}": self.build, "{root}": ROOT, "{study}": self.study.folder}
+        places = {"{folder}": folder, "{build}": self.build, "{root}": ROOT, "{study}": self.study.folder, "{peers}": self.peers}
+        if self.study.get("bed"):
+            places["{bed}"] = self.bed
 
         def filled(text):
             for name, path in places.items():
@@ -214,10 +241,14 @@ class Runner:
         curves = {}
         if exit_code in (-signal.SIGINT, -signal.SIGTERM) or (not point.command and Run(output).summary.get("ended") == "interrupted"):
             status, reason = "failed", INTERRUPTED
+        version = self.version
         if status == "done" or self.study.get("measure_failed", False):
             try:
-                values, curves = self.measured(Printed(output, text) if point.command else Run(output), point)
+                run = Printed(output, text) if point.command else Run(output)
+                values, curves = self.measured(run, point)
                 self.keep(output, point)
+                cpu_s = values.pop("CPU [s]", cpu_s)
+                version = self.study.get("program", lambda run, point: None)(run, point) or version
                 bad = [name for name, value in values.items() if not math.isfinite(value)]
                 if status == "done" and bad:
                     status, reason = "failed", "nothing was measured: %s" % ", ".join(bad)
@@ -226,7 +257,7 @@ class Runner:
                     status, reason = "failed", "nothing was measured: %s: %s" % (type(error).__name__, error)
         values = {name: value for name, value in values.items() if math.isfinite(value)}
         shutil.rmtree(folder, ignore_errors=True)
-        return Result(dataclasses.replace(point), status, exit_code, reason, cpu_s, values, self.version, key, curves=curves)
+        return Result(dataclasses.replace(point), status, exit_code, reason, cpu_s, values, version, key, curves=curves)
 
     def measured(self, run, point):
         """Values and curves of a run."""
@@ -253,12 +284,18 @@ class Runner:
 
     def call(self, command, printed, folder):
         """Exit code (negative: a signal's) and CPU time, user and system, of a command."""
-        limit = math.ceil(self.limit)
         with open(printed, "w") as file:
-            child = subprocess.Popen(command, stdout=file, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, env=sweeps.environment(), cwd=folder, start_new_session=True,
-                                     preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 5)))
+            child = subprocess.Popen(command, stdout=file, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, env=sweeps.environment(), cwd=folder, start_new_session=True)
         with self.lock:
             self.children.add(child)
+        # no limit of the system's: a process that has one knows its own CPU time to a tick of the clock only, and programs time their phases by it
+        ended = os.pidfd_open(child.pid)
+        while not select.select([ended], [], [], 1)[0]:
+            if cpu_of_group(child.pid) > self.limit:
+                child.send_signal(signal.SIGXCPU)
+                select.select([ended], [], [], 5)
+                os.killpg(child.pid, signal.SIGKILL)  # what has not listened, and what it has started
+        os.close(ended)
         _, status, usage = os.wait4(child.pid, 0)
         with self.lock:
             self.children.discard(child)
@@ -273,6 +310,20 @@ class Runner:
         for path in (self.scratch, self.build, ROOT):
             reason = reason.replace(path + "/", "")
         return textwrap.shorten(str(reason), 400, placeholder=" ...")
+
+
+def cpu_of_group(group):
+    """CPU time of the processes of a group [s]."""
+    ticks = 0
+    for name in glob.glob("/proc/[0-9]*/stat"):
+        try:
+            with open(name) as file:
+                fields = file.read().rsplit(")", 1)[1].split()
+        except (OSError, IndexError):  # it has ended
+            continue
+        if int(fields[2]) == group:
+            ticks += int(fields[11]) + int(fields[12])
+    return ticks / os.sysconf("SC_CLK_TCK")
 
 
 def read_rows(name):

@@ -9,12 +9,15 @@ import re
 from typing import Any, Callable, Optional
 
 
+NOT_INSTALLED = "is not installed"  # what a program says that a point wants and that is not there: no failure of the point
+
+
 @dataclasses.dataclass
 class Point:
     """One run: a scene with settings {'Section/Name': value}, or a command.
 
     `{folder}` in settings and commands is the run's own folder, where `files` {name: text} are put first; `{build}` and `{root}` are those
-    of the program and of the repository.
+    of the program and of the repository, `{bed}` is the table of grains of the study's `bed`, and `{peers}` the Python that has other programs.
     """
 
     series: str
@@ -25,6 +28,7 @@ class Point:
     scene: Optional[str] = None  # default: the study's
     command: Optional[list] = None
     files: dict = dataclasses.field(default_factory=dict)
+    reads: list = dataclasses.field(default_factory=list)  # other files that the result follows from: the point is run again if they change
     reference: bool = False
     default: bool = False  # what the program does if nobody says otherwise
     ranks: int = 1
@@ -127,12 +131,15 @@ class Results:
     def done(self, series, label):
         found = self.get(series, label)
         if not found.done:
-            raise Missing("%s, %s failed" % (series, label))
+            raise Missing("%s, %s %s" % (series, label, NOT_INSTALLED if NOT_INSTALLED in found.reason else "failed"))
         return found
 
     def failed(self, series, label):
-        """1 if the point failed, 0 if not."""
-        return 0 if self.get(series, label).done else 1
+        """1 if the point failed, 0 if not; Missing if what it is of is not there."""
+        found = self.get(series, label)
+        if NOT_INSTALLED in found.reason:
+            raise Missing("%s, %s: %s" % (series, label, found.reason))
+        return 0 if found.done else 1
 
     def value(self, series, label, name):
         return self.done(series, label).values[name]

@@ -1,7 +1,7 @@
-"""A settled bed as the other programs get it, and the measures that all of them are judged by.
+"""A bed as the other programs get it, and the measures that all of them are judged by.
 
-A bed is what `benchmark_settled_bed --make` writes: a table with a comment `# width = W` [m], floor y = 0, sides x = 0 and x = W.
-SI units, per unit depth. Grains have density 2630 kg/m^3 and friction 0.4 with each other and the walls.
+A bed is the table of grains that our program keeps of a settled one: x, y, radius, density, and in a comment `# x1 = W` how wide it is.
+Floor y = 0, sides x = 0 and x = W. SI units, per unit depth; a grain's mass is density pi r^2. Friction is 0.4 between grains and with walls.
 """
 import json
 import sys
@@ -10,15 +10,18 @@ import numpy as np
 
 GRAVITY, FRICTION = 9.81, 0.4
 WINDOW = 1e-3   # [s] over which wall forces are averaged
-WARM_UP = 0.01  # [s] that does not count
+SETTLED = 0.01  # [s] after which a bed at rest is looked at: none of the programs knows a contact force in the beginning
 
 
 class Bed:
-    def __init__(self, name):
+    """Grains and the box that they are put into. `box_width` [m]: a wider one, in which the bed collapses."""
+
+    def __init__(self, name, box_width=None):
         with open(name) as file:
             lines = file.read().splitlines()
-        comments = [line[1:].split("=") for line in lines if line.startswith("#") and "=" in line]
-        self.width = next(float(value) for key, value in comments if key.strip() == "width")
+        comments = dict(line[1:].split("=", 1) for line in lines if line.startswith("#") and "=" in line)
+        self.width = next(float.fromhex(value.strip()) for key, value in comments.items() if key.strip() == "x1")
+        self.box_width = box_width or self.width
         rows = [line for line in lines if line and not line.startswith("#")]
         columns = rows[0].split(",")
         table = np.array([[float(x) for x in row.split(",")] for row in rows[1:]])
@@ -34,36 +37,48 @@ class Bed:
         pairs = cKDTree(np.c_[x, y]).query_pairs(2 * self.radius.max(), output_type="ndarray")
         i, j = pairs[:, 0], pairs[:, 1]
         depth = np.r_[self.radius[i] + self.radius[j] - np.hypot(x[i] - x[j], y[i] - y[j]),
-                      self.radius - y, self.radius - x, self.radius - (self.width - x)]
+                      self.radius - y, self.radius - x, self.radius - (self.box_width - x)]
         depth = depth[depth > 0]
         return (depth.mean() / self.diameter, depth.max() / self.diameter) if len(depth) else (0.0, 0.0)
 
 
-class Measures:
-    """Collects what a program does to a bed, window by window, and prints it as one JSON object."""
+def dry_options(parser):
+    """What all programs for dry beds are asked."""
+    parser.add_argument("bed")
+    parser.add_argument("--time", type=float, default=0.05, help="simulated time [s]")
+    parser.add_argument("--box-width", type=float, metavar="W", help="take the right wall away to there, so that the bed collapses [m]")
+    options = parser.parse_args()
+    options.windows = round(options.time / WINDOW)
+    return options, Bed(options.bed, options.box_width)
 
-    def __init__(self, bed, vy):
-        self.bed, self.errors, self.depths, self.speeds = bed, [], [], []
-        self.momentum = (bed.mass * vy).sum()
 
-    def window(self, x, y, vx, vy):
-        """State after another window. What the walls carried follows from the momentum, whatever a program reports."""
-        bed = self.bed
-        momentum = (bed.mass * vy).sum()
-        self.errors.append((momentum - self.momentum) / (WINDOW * GRAVITY * bed.mass.sum()))
-        self.momentum = momentum
-        self.depths.append(bed.penetration(x, y))
-        self.speeds.append(np.sqrt(np.mean(vx**2 + vy**2)))
+def report_dry(bed, states, program, **more):
+    """Print what a program has made of a dry bed, as one JSON object.
 
-    def report(self, cpu, **more):
-        depths, time = np.array(self.depths), WINDOW * len(self.errors)
-        print(json.dumps({"cpu_s_per_10_ms": cpu * 0.01 / time, "mean_penetration_d": depths[:, 0].mean(),
-                          "max_penetration_d": depths[:, 1].max(), "support": 1 + np.mean(self.errors),
-                          "support_error": np.sqrt(np.mean(np.square(self.errors))),
-                          "speed_m_per_s": np.mean(self.speeds), **more}))
+    `states` yields (CPU seconds so far, x, y, vx, vy) at the start and after each window. What the walls carried follows from the momentum,
+    whatever a program reports. `more` may be functions; they are called at the end.
+    """
+    momentum, depths, supports, cpu, started = None, [], [], 0.0, 0.0
+    place = lambda z: np.average(z, weights=bed.mass)
+    for window, (cpu, x, y, vx, vy) in enumerate(states):
+        if not (np.isfinite(x).all() and np.isfinite(vy).all()):
+            sys.exit(f"{program} has diverged at {window * WINDOW:g} s")
+        if window == round(SETTLED / WINDOW):
+            started = cpu
+        last, momentum = momentum, (bed.mass * vy).sum()
+        if window == 0:
+            start = place(x), place(y)
+            continue
+        supports.append(1 + (momentum - last) / (WINDOW * GRAVITY * bed.mass.sum()))
+        depths.append(bed.penetration(x, y))
+    late = slice(round(SETTLED / WINDOW), None)
+    depths, supports = np.array(depths), np.array(supports)
+    print(json.dumps({"program": program, "cpu_s": cpu, "cpu_after_start_s": cpu - started, "mean_overlap_d": depths[late, 0].mean(), "max_overlap_d": depths[:, 1].max(),
+                      "support_error": np.sqrt(np.mean((supports[late] - 1)**2)), "support": supports[late].mean(), "spreading_m": place(x) - start[0],
+                      "fall_m": start[1] - place(y), **{name: value() if callable(value) else value for name, value in more.items()}}))
 
 
 def missing(what, how):
-    """End with the code that says: not installed."""
+    """End with the words that the laboratory looks for: it tries again next time."""
     print(f"{what} is not installed: {how}", file=sys.stderr)
     sys.exit(3)

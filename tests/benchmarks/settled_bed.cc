@@ -1,4 +1,4 @@
-// One settled bed, made and measured: what the work-precision charts and the table of deposits are drawn from.
+// One settled bed, made and measured: what the table of deposits is made from.
 //
 //   benchmark_settled_bed --list
 //       the contact solvers there are, one a line

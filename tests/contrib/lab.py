@@ -50,6 +50,67 @@ def claims(r):
 '''
 
 
+# grains that our program has settled, for another program, which counts its own time; and one that is not there at first
+COMPARED = '''"""Two programs.
+
+They have the same grains.
+"""
+import json
+import numpy
+from laboratory import peers
+from laboratory.study import Chart, Point
+
+scene, bed, chart, jobs = "scene.prm", "bed.prm", Chart(), 1
+program, cpu_says = peers.program, "Times are of steps."
+COUNT = "import json, sys; print(json.dumps({'program': 'Peer 3.1', 'cpu_s': 0.125, 'grains': sum(line[:1].isdigit() for line in open(sys.argv[1]))}))"
+LATER = "test -e %r/there && echo '{\\"program\\": \\"Late 1.0\\", \\"cpu_s\\": 0.5, \\"grains\\": 7}' || { echo 'Late is not installed: buy it' >&2; exit 3; }"
+
+
+def points(quick):
+    yield Point("ours", "from the table", {"Grains/Deposit": "file", "Grains/Deposit: file/File": "{bed}"}, reference=True)
+    yield Point("theirs", "counts", command=["{peers}", "-c", COUNT, "{bed}"])
+    yield Point("theirs", "later", command=["sh", "-c", LATER % FOLDER])
+
+
+def measure(run, point):
+    if point.command:
+        return {"CPU [s]": peers.said(run)["cpu_s"], "grains": peers.said(run)["grains"]}
+    return {"CPU [s]": peers.cpu_of_steps(run), "grains": run.summary["scene"]["grains"]}
+
+
+def error(values, reference):
+    return abs(values["grains"] / reference["grains"] - 1)
+
+
+def says(r):
+    return "Peers have %g grains." % r.value("theirs", "counts", "grains")
+
+
+def claims(r):
+    yield "all have 40 grains", lambda: r.value("theirs", "counts", "grains"), "==", 40
+    yield "the other runs", lambda: r.failed("theirs", "later"), "==", 0
+    yield "and has some grains", lambda: r.value("theirs", "later", "grains"), ">", 0
+'''
+BED = """set Gravity = 0, -9.81
+subsection Time
+ set End time = 1e-4
+ set Time step = 1e-4
+end
+subsection Domain
+ set Upper right corner = 0.002, 0.02
+end
+subsection Fluid
+ set Model = none
+end
+subsection Grains
+ set Deposit = settled bed
+ subsection Deposit: settled bed
+  set Number of grains = 40
+ end
+end
+"""
+
+
 def lab(*arguments):
     result = subprocess.run([os.path.join(ROOT, "contrib", "lab"), "--build", build, "--studies", studies, "--to", target, "--scratch", os.path.join(folder, "scratch"),
                              "--jobs", "2", *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -66,8 +127,8 @@ def text(*path):
         return file.read()
 
 
-def rows():
-    return {row["label"]: row for row in csv.DictReader(text("falling", "results.csv").splitlines())}
+def rows(study="falling"):
+    return {row["label"]: row for row in csv.DictReader(text(study, "results.csv").splitlines())}
 
 
 build = os.path.abspath(sys.argv[1])
@@ -112,6 +173,27 @@ with tempfile.TemporaryDirectory() as folder:
     code, said = lab("falling", "--quick", "--check")
     assert code == 1 and "DOES NOT HOLD: it falls" in said and "0 to run" in said, said
     assert "**does not hold**" in text("falling", "README.md") and "theory" in text("falling", "falling.svg")
+
+    # other programs: the same grains, their own time, their names; what is not installed is no failure of a claim, and is tried again
+    os.makedirs(os.path.join(studies, "compared"))
+    for name, words in (("study.py", COMPARED.replace("FOLDER", repr(folder))), ("bed.prm", BED), ("scene.prm", "include bed.prm\n")):
+        with open(os.path.join(studies, "compared", name), "w") as file:
+            file.write(words)
+    code, said = lab("compared", "--check", "--peers", sys.executable)
+    assert code == 0 and "holds: all have 40 grains" in said and said.count("not looked at") == 2 and "Late is not installed: buy it" in said, said
+    found = rows("compared")
+    assert found["counts"]["cpu_s"] == "0.125" and found["counts"]["version"] == "Peer 3.1" and found["counts"]["error"] == "0", found
+    assert 0 < float(found["from the table"]["cpu_s"]) < 1, found
+    page = text("compared", "README.md")
+    assert "| theirs, later | 3 | Late is not installed: buy it |" in page and "Peer 3.1" in page and "Times are of steps." in page, page
+    code, said = lab("compared", "--check")
+    assert code == 0 and "3 points, 1 to run" in said and "not looked at" in said, said
+    with open(os.path.join(folder, "there"), "w"):
+        pass
+    code, said = lab("compared", "--check")
+    assert code == 0 and "3 points, 1 to run" in said and "holds: the other runs" in said and "not looked at" not in said and "Late 1.0" in text("compared", "README.md"), said
+    code, said = lab("compared")
+    assert code == 0 and "3 points, 0 to run" in said, said
 
     # the list of all, and the report
     with open(os.path.join(target, "README.md"), "w") as file:
