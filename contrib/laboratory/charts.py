@@ -207,10 +207,10 @@ def draw_curves(study, results, folder):
             if name in r.curves:
                 style = ["-", "--", ":", "-."][series.index(r.point.series) % 4]
                 handles[r.point.name if r.point.shown is None else r.point.shown], = axis.plot(*r.curves[name], style, color=colours[r.point.name], lw=2)
-        for i, (label, xs, ys, way) in enumerate(extra[name]):
-            look = {"line": dict(ls="--" if points else "-", lw=2), "marks": dict(ls="", marker=MARKERS[i % len(MARKERS)], ms=10),
+        for i, (label, xs, ys, way, *colour) in enumerate(extra[name]):
+            look = {"line": dict(ls="--" if points or colour else "-", lw=2), "marks": dict(ls="", marker=MARKERS[i % len(MARKERS)], ms=10),
                     "both": dict(ls=":", lw=1.5, marker=MARKERS[i % len(MARKERS)], ms=9)}[way]
-            handles[label], = axis.plot(xs, ys, color=grey[label], mec="white", mew=0.7, zorder=4 if way != "line" else 2, **look)
+            handles[label], = axis.plot(xs, ys, color=COLOURS[colour[0]] if colour else grey[label], mec="white", mew=0.7, zorder=4 if way != "line" else 2, **look)
         for way, side, scale in (("x", axis.xaxis, axis.set_xscale), ("y", axis.yaxis, axis.set_yscale)):
             if way in chart.log.get(name, ""):
                 scale("log")
