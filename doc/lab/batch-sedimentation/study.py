@@ -126,7 +126,7 @@ def points(quick):
         yield point("Re 4.5, random", phi, 1e-3, suspensions.anywhere)
     for phi in [0.3] if quick else BATCH:
         end = 1.5 * BATCH_HEIGHT * (1 - phi / 0.8) * D / by_law(phi, BATCH_VISCOSITY)[0]
-        yield Point("batch", "packing %g" % phi, {
+        yield Point("batch", "packing %g" % phi, shown="batch, packing %g; dashed: Kynch" % phi, settings={
             "Domain/Upper right corner": "%g, %g" % (BATCH_WIDTH * D, BATCH_HEIGHT * D), "Fluid/Viscosity": BATCH_VISCOSITY, "Grains/Deposit": "random suspension",
             "Grains/Deposit: random suspension/Smallest diameter": D, "Grains/Deposit: random suspension/Size ratio": 1, "Grains/Deposit: random suspension/Area fraction": phi,
             "Time/Time step": 2e-3, "Time/End time": end, "Output/Interval of statistics": 0.02, "Output/Interval of pictures": 0.03, "Output/Observers: settling/Bottom": 0,
@@ -181,32 +181,32 @@ def exponents(r, end=""):
 
 def beside(panel, r):
     if panel == SPEED:
+        phis = np.linspace(0, 0.42, 43)
         for colour, (name, viscosity) in enumerate(VISCOSITIES.items()):
             alone = by_law(0, viscosity)[0]
             try:
                 found = speeds(r, "Re " + name)
             except Missing:
                 continue
-            phis = np.linspace(0, 0.42, 43)
-            yield "Re %s: program" % name, [1 - phi for phi, _ in found], [speed / alone for _, speed in found], "marks", colour
-            yield "its drag law", 1 - phis, [by_law(phi, viscosity)[0] / alone for phi in phis], "line", colour
-        eps = np.linspace(0.58, 1, 43)
-        yield "Richardson and Zaki, Re 0.07 and 28", np.concatenate([eps, [np.nan], eps]), np.concatenate([eps ** of_spheres(reynolds(1e-2)), [np.nan], eps ** of_spheres(reynolds(3e-4))]), "line", 6
+            yield "program, Re %s; lines in its colour: the drag law" % name, [1 - phi for phi, _ in found], [speed / alone for _, speed in found], "marks", colour
+            yield "_law %s" % name, 1 - phis, [by_law(phi, viscosity)[0] / alone for phi in phis], "line", colour
+        eps = 1 - phis
+        yield "spheres, Richardson and Zaki (left: Re 28 and 0.07)", np.concatenate([eps, [np.nan], eps]), np.concatenate([eps ** of_spheres(reynolds(1e-2)), [np.nan], eps ** of_spheres(reynolds(3e-4))]), "line", 6
     if panel == EXPONENT:
-        viscosities = np.geomspace(4e-2, 2e-4, 40)
+        viscosities = np.geomspace(2e-2, 2e-4, 40)
         res = [reynolds(v) for v in viscosities]
-        yield "program, law with eps^-2.8 (default)", *exponents(r), "marks", 0
-        yield "that law itself", res, [exponent_of_law(v) for v in viscosities], "line", 0
-        yield "program, Di Felice's exponent", *exponents(r, ", Di Felice"), "marks", 1
-        yield "that law itself, Di Felice", res, [exponent_of_law(v, True) for v in viscosities], "line", 1
-        yield "program, discs at random places", *exponents(r, ", random"), "marks", 2
-        yield "spheres: Richardson and Zaki", res, [of_spheres(re) for re in res], "line", 6
+        yield "program, exponent n of the default's eps^-2.8", *exponents(r), "marks", 0
+        yield "_default", res, [exponent_of_law(v) for v in viscosities], "line", 0
+        yield "program, n of Di Felice's exponent", *exponents(r, ", Di Felice"), "marks", 1
+        yield "_di felice", res, [exponent_of_law(v, True) for v in viscosities], "line", 1
+        yield "program, n of discs at random places, eps^-2.8", *exponents(r, ", random"), "marks", 2
+        yield "spheres, Richardson and Zaki (left: Re 28 and 0.07)", res, [of_spheres(re) for re in res], "line", 6
         yield "slow spheres: Brzinski and Durian", [min(res) * 1.2], [4.48], "marks", 6
     if panel == FRONT:
         for colour, x in enumerate(x for x in r.of("batch") if x.done):
             phi = float(x.point.label.split()[1])
             times, heights = kynch(phi, x.values["packing at the end"], x.point.settings["Time/End time"])
-            yield "Kynch, packing %g" % phi, times, heights, "line", colour
+            yield "_kynch %g" % phi, times, heights, "line", colour
 
 
 chart = Curves(panels={SPEED: ("void fraction", "speed / that of a lone disc"), EXPONENT: ("Reynolds number of a lone disc", "n"), FRONT: ("time [s]", "height / d")},
