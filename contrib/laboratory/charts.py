@@ -196,7 +196,7 @@ def draw_curves(study, results, folder):
     if not names:
         return []
     columns = min(chart.columns, len(names))
-    labels = list(dict.fromkeys([r.point.name for r in points] + [label for name in names for label, *_ in extra[name]]))
+    labels = list(dict.fromkeys([r.point.name for r in points] + [label for name in names for label, *_ in extra[name] if label[0] != "_"]))
     figure, axes, place = panels(len(names), columns, (12, 6.4) if columns == 1 else (7.4, 5.6), 0.34 * math.ceil(len(labels) / 2) + 0.1)
     colours = {r.point.name: COLOURS[i % len(COLOURS)] for i, r in enumerate(points)}
     grey = {label: COLOURS[i % len(COLOURS)] if not points else ("black", "0.45", "0.7")[i % 3]
@@ -207,17 +207,19 @@ def draw_curves(study, results, folder):
             if name in r.curves:
                 style = ["-", "--", ":", "-."][series.index(r.point.series) % 4]
                 handles[r.point.name if r.point.shown is None else r.point.shown], = axis.plot(*r.curves[name], style, color=colours[r.point.name], lw=2)
-        for i, (label, xs, ys, way) in enumerate(extra[name]):
-            look = {"line": dict(ls="--" if points else "-", lw=2), "marks": dict(ls="", marker=MARKERS[i % len(MARKERS)], ms=10),
+        for i, (label, xs, ys, way, *colour) in enumerate(extra[name]):
+            look = {"line": dict(ls="--" if points or colour else "-", lw=2), "marks": dict(ls="", marker=MARKERS[i % len(MARKERS)], ms=10),
                     "both": dict(ls=":", lw=1.5, marker=MARKERS[i % len(MARKERS)], ms=9)}[way]
-            handles[label], = axis.plot(xs, ys, color=grey[label], mec="white", mew=0.7, zorder=4 if way != "line" else 2, **look)
+            handles[label], = axis.plot(xs, ys, color=COLOURS[colour[0]] if colour else grey[label], mec="white", mew=0.7, zorder=4 if way != "line" else 2, **look)
         for way, side, scale in (("x", axis.xaxis, axis.set_xscale), ("y", axis.yaxis, axis.set_yscale)):
             if way in chart.log.get(name, ""):
                 scale("log")
-                side.set_major_locator(LogLocator(subs=(1, 2, 5)))
+                low, high = side.get_view_interval()
+                side.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 1e3 * low else (1,)))
                 plain(side)
         axis.set(title=name, xlabel=chart.panels[name][0], ylabel=chart.panels[name][1])
         axis.grid(alpha=0.3)
+    handles = {label: handle for label, handle in handles.items() if label[0] != "_"}
     place.legend(handles.values(), handles.keys(), loc="center", ncol=max(1, place.columns), frameon=False)
     return save(figure, folder, study.name)
 

@@ -93,7 +93,9 @@ class Curves:
     kind = "curves"
     panels: dict = dataclasses.field(default_factory=dict)  # {name: (title of x, title of y)}
     log: dict = dataclasses.field(default_factory=dict)  # {name: 'x', 'y' or 'xy'}
-    beside: Optional[Callable] = None  # beside(panel, results) yields (label, xs, ys, 'line' or 'marks' or 'both'): theory, literature, values over a parameter
+    # beside(panel, results) yields (label, xs, ys, 'line' or 'marks' or 'both'): theory, literature, values over a parameter; a number after
+    # these is a colour: a theory has that of the marks that belong to it; the legend leaves out labels that begin with _
+    beside: Optional[Callable] = None
     columns: int = 2
 
 

@@ -1,0 +1,167 @@
+"""A column collapses in a liquid, dense and loose.
+
+Rondon, Pouliquen and Aussillous (Phys. Fluids 23, 2011, 073301) let columns of glass beads of 0.225 mm collapse in a liquid of 12 mPa s. What decides is how they are packed. A loose column (0.55) contracts as it shears, the liquid carries part of it, and
+it runs out fast and far; a dense one (0.60) must dilate first, sucks liquid in, and creeps. Their fronts, the pressure of the liquid under the column and their final shapes are those of the tables that come with SedFoam's tutorial
+2DCollapse (github.com/SedFoam/sedfoam, tutorials/Py/DATA/Rondon2012), read off by its authors. Beads, liquid and drag (law `sphere`) are the experiment's.
+
+**Size and time.** The experiment's columns of 6 cm hold 50,000 beads in a plane; here they have 1,000 discs, 27 d high instead of 200. Lengths are over L_0. Times are over eta H_0/((rho_p - rho) g d^2), in which the liquid drains through a column as high as
+that, 0.7 s in the experiment and 0.1 s here; pressures over phi (rho_p - rho) g H_0.
+
+**How packing is mapped.** Discs cannot be packed 0.55. They are deposited as loosely and as densely as deposits go, %.2g and %.2g by area; the fluid sees discs that are smaller, so that its packing is the experiment's, 0.55 and 0.60, and they weigh as
+these. So drag, weight and head are right. What is not: how much a bed dilates before it flows. Spheres at 0.55 and 0.60 are 3.5 %% below and 5.3 %% above the packing at which they flow (0.57 in SedFoam's model), discs between 0.78 and 0.83 have 2.5 %% and 3.7 %% to go from
+0.80, and in a plane they have fewer neighbours to lock with.
+
+**What can be compared**, then: the order of the two, the sign of the pressure, its size over the weight, and the times' ratio. **What not**: lengths in beads, and what happens within a few beads of the front.
+"""
+import math
+
+import numpy as np
+
+from laboratory.study import Curves, Missing, Point
+
+LOOSE, DENSE = 0.78, 0.83
+__doc__ = __doc__ % (LOOSE, DENSE)
+
+order = 54
+scene = "column.prm"
+limit = 900
+G, D, DRHO, ETA, AREA = 9.81, 0.2255e-3, 1490.0, 0.01212, 4.0e-8  # mean diameter [m], area of a disc [m^2]
+KINDS = {"loose": (LOOSE, 0.55, 4.8 / 6), "dense": (DENSE, 0.60, 4.2 / 6)}  # packing of the discs, of the fluid, aspect ratio
+FRONT, PRESSURE, SHAPE = "front", "pressure of the liquid under the column", "deposit"
+EXPERIMENT = {"loose": (0.06, 0.048), "dense": (0.06, 0.042)}  # L_0, H_0 [m]
+
+# Rondon and others 2011 as read off by SedFoam's authors: time [s], length [cm]; time [s], excess pressure 2 cm from the wall [Pa]; x, y [cm] of the deposit
+FRONTS = {"loose": [(0.085, 6.921), (0.636, 16.271), (1.314, 19.719), (1.907, 20.301), (2.585, 20.747), (3.22, 21.022), (3.941, 21.161), (4.534, 21.231), (5.89, 21.201)],
+          "dense": [(0.042, 7.092), (0.551, 8.765), (1.229, 8.358), (1.907, 9.282), (2.542, 9.523), (3.093, 9.797), (3.771, 10.448), (4.407, 11.201), (5.0, 11.475), (5.508, 11.648),
+                    (6.229, 12.094), (7.5, 11.962), (8.686, 12.068), (10.0, 12.107)]}
+PRESSURES = {"loose": [(1.127, 133.32), (1.972, 144.078), (3.38, 126.458), (4.507, 104.229), (5.915, 82.005), (6.479, 65.904), (8.169, 51.358), (8.732, 44.463), (10.704, 38.363)],
+             "dense": [(1.127, -126.015), (1.972, -63.85), (3.38, -52.314), (6.197, -52.26), (7.324, -56.842), (8.732, -40.703), (10.423, -28.394)]}
+SHAPES = {"loose": [(0.14, 2.617), (1.515, 2.383), (3.2, 2.358), (4.345, 2.202), (5.433, 2.047), (6.892, 1.865), (8.209, 1.684), (9.325, 1.58), (11.099, 1.373), (12.93, 1.166), (14.877, 0.907),
+                    (16.537, 0.7), (18.283, 0.466), (19.801, 0.207)],
+          "dense": [(0.401, 4.219), (1.632, 4.167), (2.692, 3.75), (3.608, 3.125), (4.553, 2.734), (5.47, 2.188), (6.386, 1.719), (7.56, 1.328), (8.648, 0.99), (9.794, 0.651), (10.825, 0.417),
+                    (11.713, 0.208)]}
+
+
+def clock(height):
+    """Unit of time [s] of a column of this height [m]."""
+    return ETA * height / (DRHO * G * D**2)
+
+
+def size(kind, n):
+    """L_0 and H_0 [m] of a column of n discs."""
+    packing, _, aspect = KINDS[kind]
+    width = math.sqrt(n * AREA / (packing * aspect))
+    return width, aspect * width
+
+
+def column(kind, n, end, seed=1):
+    packing, of_fluid, _ = KINDS[kind]
+    width, height = size(kind, n)
+    step = end * clock(height) / 70
+    return {"Domain/Upper right corner": "%.5g, %.5g" % (5 * width, 2 * height), "Grains/Deposit: settled bed/Box": "0, 0, %.5g, %.5g" % (width, 1.7 * height),
+            "Grains/Deposit: settled bed/Number of grains": n, "Grains/Deposit: settled bed/Packing fraction": packing, "Grains/Deposit: settled bed/Seed": seed,
+            "Grains/Fluid packing fraction": of_fluid, "Time/End time": end * clock(height), "Output/Interval of pictures": step}
+
+
+def points(quick):
+    for kind in KINDS:
+        if quick:
+            yield Point(kind, "400 discs", column(kind, 400, 4))
+            continue
+        yield Point(kind, "1000 discs", column(kind, 1000, 14))
+        yield Point(kind, "400 discs", column(kind, 400, 14))
+
+
+def front_of(grains, width):
+    """Front over L_0: to where, from the wall on, stretches of 2 d hold more than half a layer."""
+    x, area = grains.points[:, 0], math.pi * grains.fields["radius"] ** 2
+    edges = np.arange(0, 5 * width, 2 * D)
+    thick = np.histogram(x, edges, weights=area)[0] / (2 * D)
+    end = int(np.argmax(thick < 0.4 * D)) if np.any(thick < 0.4 * D) else len(thick)
+    return edges[end] / width
+
+
+def top_of(grains, width):
+    """Deposit: highest disc of stretches of 3 d, x and y over L_0."""
+    x, y = grains.points[:, 0], grains.points[:, 1] + grains.fields["radius"]
+    edges = np.arange(0, front_of(grains, width) * width, 3 * D)
+    tops = [(0.5 * (a + b) / width, float(np.max(y[(x >= a) & (x < b)])) / width) for a, b in zip(edges[:-1], edges[1:]) if np.any((x >= a) & (x < b))]
+    return [a for a, _ in tops], [b for _, b in tops]
+
+
+def history(run, point):
+    """Of each picture: time over the clock, front over L_0, excess pressure at a third of L_0 over the column's weight."""
+    kind, n = point.series, int(point.label.split()[0])
+    width, height = size(kind, n)
+    weight = KINDS[kind][1] * DRHO * G * height
+    times, fronts, pressures = [], [], []
+    for (time, grains), (_, fluid) in zip(run.grains(), run.fluid()):
+        floor = fluid.points[:, 1] < 1e-9
+        x, p = fluid.points[floor, 0], fluid.fields["pressure"][floor]
+        at = np.argsort(x)
+        times.append(time / clock(height))
+        fronts.append(front_of(grains, width))
+        pressures.append(float(np.interp(width / 3, x[at], p[at]) - p[at][-1]) / weight)
+    return times, fronts, pressures
+
+
+def measure(run, point):
+    width, _ = size(point.series, int(point.label.split()[0]))
+    times, fronts, pressures = history(run, point)
+    _, last = run.picture("grains", run.time[-1])
+    largest = max(pressures[1:], key=abs)
+    half = 0.5 * (fronts[0] + fronts[-1])
+    return {"front at the end / L_0": fronts[-1], "front at 4 / L_0": float(np.interp(4, times, fronts)), "half of the way at": float(np.interp(half, np.maximum.accumulate(fronts), times)),
+            "height at the end / L_0": top_of(last, width)[1][0], "largest pressure / weight": largest, "at time": times[1:][pressures[1:].index(largest)],
+            "mean pressure to 1 / weight": float(np.mean([p for t, p in zip(times, pressures) if 0 < t <= 1]))}
+
+
+def curves(run, point):
+    width, _ = size(point.series, int(point.label.split()[0]))
+    times, fronts, pressures = history(run, point)
+    _, last = run.picture("grains", run.time[-1])
+    found = {FRONT: (times, fronts), PRESSURE: (times[1:], pressures[1:])}
+    return {**found, SHAPE: top_of(last, width)} if point.label == "1000 discs" else found
+
+
+# --- what is shown and said
+
+def beside(panel, r):
+    for colour, kind in enumerate(KINDS):
+        width, height = EXPERIMENT[kind]
+        weight = KINDS[kind][1] * DRHO * G * height
+        if panel == FRONT:
+            data = [(t / clock(height), 0.01 * x / width) for t, x in FRONTS[kind]]
+        elif panel == PRESSURE:
+            data = [(t / clock(height), p / weight) for t, p in PRESSURES[kind]]
+        else:
+            data = [(0.01 * x / width, 0.01 * y / width) for x, y in SHAPES[kind]]
+        yield "experiment, %s" % kind, [a for a, _ in data], [b for _, b in data], "marks", {"loose": 0, "dense": 2}[kind]
+
+
+chart = Curves(panels={FRONT: ("time / (eta H_0/(drho g d^2))", "front / L_0"), PRESSURE: ("time / (eta H_0/(drho g d^2))", "pressure / (phi drho g H_0)"), SHAPE: ("x / L_0", "y / L_0")}, beside=beside)
+
+
+def value(r, kind, name):
+    """Of the larger column that was run."""
+    for label in ("1000 discs", "400 discs"):
+        try:
+            return r.value(kind, label, name)
+        except Missing:
+            continue
+    raise Missing("no %s column was run" % kind)
+
+
+def claims(r):
+    yield "loose: the liquid is pressed while the column begins to move", lambda: value(r, "loose", "mean pressure to 1 / weight"), ">", 0
+    yield "dense: the liquid is sucked in", lambda: value(r, "dense", "mean pressure to 1 / weight"), "<", 0
+    yield "at four units of time the loose front is farther than the dense one", lambda: value(r, "loose", "front at 4 / L_0") / value(r, "dense", "front at 4 / L_0"), ">", 1.05
+
+
+def says(r):
+    of = lambda kind: r.done(kind, "1000 discs").values
+    loose, dense = of("loose"), of("dense")
+    return ("The order and the signs are the experiment's: loose the pressure under the column is first %+.2f of its weight, dense %+.2f (experiment, later: %+.2f and %+.2f), and the front comes to %.2f and %.2f L_0 (%.2f and %.2f). "
+            "The sizes are not: discs in a plane dilate and contract less than spheres, and a column of 27 layers has its front within a few of them."
+            % (loose["mean pressure to 1 / weight"], dense["mean pressure to 1 / weight"], *(PRESSURES[k][1 if k == "loose" else 0][1] / (KINDS[k][1] * DRHO * G * EXPERIMENT[k][1]) for k in KINDS),
+               loose["front at the end / L_0"], dense["front at the end / L_0"], *(FRONTS[k][-1][1] / 6 for k in KINDS)))
