@@ -7,6 +7,13 @@ the faces, as in the paper, and with cells that follow them. The full size, 138,
 The paper reads 0.69 s, 0.72 s and 22 cm off its full size, and 19 cm off the experiment. What of that is exact: the bed weighs as one of discs packed phi_m, so it is carried at
 the head (s phi_m - phi_b) L, a closed form (errors of the onset are against it). What is not: the detector. A grain has to move by a diameter before it counts,
 and meanwhile the pressure rises. [How much](../ramp-and-lag/README.md) follows from the ramp; [walls](../width-and-walls/README.md) hold narrow beds longer.
+So of the 1.8 cm between onset and heave at full size the formula for a rigid bed explains 1.4 cm of imposed head; water that has to come in below the bed, and walls, the rest.
+
+What stays open: the paper prints neither the height of its bed nor of its box. 0.13 m in 0.3 m of water are ours, with 22 cm in mind. In a box of 0.3 m the paper's 0.69 s would be 20.7 cm, less than this bed's
+onset, and 0.72 s could not give 22 cm: its box was higher than 0.305 m, its bed lower or lighter. A bed that weighs what the water sees, as sand does, would be carried at 11 cm; so the paper's weighs as its discs do.
+Pictures and numbers of the two runs: [full-size](full-size/summary.json), [full-size-light](full-size-light/summary.json).
+
+![The bed at full size](full-size/bed.png)
 """
 import os
 import shutil
