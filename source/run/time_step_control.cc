@@ -154,8 +154,17 @@ namespace alluvium::run
           n += 1.;
         result = std::min(result, n * interval);
       }
-    const auto kink = std::upper_bound(kinks.begin(), kinks.end(), time + soon);
-    return kink == kinks.end() ? result : std::min(result, *kink);
+    // a kink that lies beside another event, as one that was found to round-off, is met there: what is between them is no step
+    const double close = std::max(soon, same_kink());
+    const auto   kink  = std::upper_bound(kinks.begin(), kinks.end(), time + close);
+    return kink != kinks.end() && *kink < result - close ? *kink : result;
+  }
+
+
+  /** How far from a kink a step may end that meets it [s]. */
+  double TimeStepControl::same_kink() const
+  {
+    return std::max(same_time * largest, 0.1 * smallest);
   }
 
 
@@ -192,8 +201,8 @@ namespace alluvium::run
         return;
       }
     dt_before          = model.time_step;
-    const bool at_kink = std::any_of(
-      kinks.begin(), kinks.end(), [&](const double t) { return std::abs(t - model.time) <= same_time * largest; });
+    const bool at_kink =
+      std::any_of(kinks.begin(), kinks.end(), [&](const double t) { return std::abs(t - model.time) <= same_kink(); });
     is_smooth = has_history && !at_kink;
     if (!is_smooth)
       {

@@ -96,6 +96,7 @@ namespace alluvium::run
     bool   may_be_shorter() const;
     void   set(double dt);
     double next_event(double time) const;
+    double same_kink() const;
     double grain_error() const;
     double path_step() const;
 
