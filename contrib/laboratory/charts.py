@@ -127,7 +127,8 @@ def ticks(axis):
     for side, text in ((axis.xaxis, lambda x, _: plain(100 * x) + " %"), (axis.yaxis, lambda y, _: plain(y))):
         low, high = side.get_view_interval()
         decades = math.log10(high / low) if low > 0 else 9
-        side.set_major_locator(LogLocator(subs=(1, 2, 5) if decades < 1.9 else (1, 3) if decades < 3.5 else (1,), numticks=20))
+        subs = (1, 2, 5) if decades < 1.9 else (1, 3) if decades < 3.5 else (1,)
+        side.set_major_locator(LogLocator(10 if decades < 6 else 100, subs=subs, numticks=20))
         side.set_major_formatter(FuncFormatter(text))
         side.set_minor_formatter(NullFormatter())
 

@@ -7,8 +7,8 @@ import os
 from . import ROOT
 from .study import Missing, Point
 
-CPU_SAYS = ("CPU times are user and system time of the time steps alone, as each program or its script counts them: no set-up, no meshing, no output. One program at a time, all "
-            "in one run on this machine, which others used as well: trust ratios within a third.")
+CPU_SAYS = ("CPU times are user and system time of the time steps alone, as each program or its script counts them: no set-up, no meshing, no output. Points of a "
+            "study ran one after the other on one machine, which others used heavily: trust ratios within a factor of two.")
 DO_NOT_COUNT = ("set-up", "checkpoints", "pictures", "observers")
 SYSTEM, PEERS = "/usr/bin/python3", "{peers}"
 

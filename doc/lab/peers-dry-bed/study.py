@@ -57,7 +57,7 @@ def points(quick):
         yield peers.point("LAMMPS, soft spheres", "LAMMPS " + overlap, "lammps", {"--overlap": overlap, **WARM_UP}, peers.SYSTEM, shown=overlap)
     for overlap in [] if quick else ["1e-2", "3e-3", "1e-3"]:
         yield peers.point("peclet, Hertz", "Hertz " + overlap, "peclet", {"--engine": "hertz", "--overlap": overlap, "--call": 10, **WARM_UP}, shown=overlap)
-    for dt, sweeps in [] if quick else [("1e-4", 50), ("1e-3", 500)]:
+    for dt, sweeps in [] if quick else [("1e-4", 50)]:
         yield peers.point("peclet, impulses", "impulses %s, %d" % (dt, sweeps), "peclet", {"--engine": "impulse", "--dt": dt, "--sweeps": sweeps}, shown="%s, %d" % (dt, sweeps))
 
 
@@ -90,18 +90,18 @@ def claims(r):
     yield "a tolerance of 1e-5 in steps of 0.1 ms is cheaper than one of 1e-3", lambda: r.cpu("Alluvium, steps of 0.1 ms", "0.1 ms, 1e-05") / r.cpu("Alluvium, steps of 0.1 ms", "0.1 ms, 1e-03"), "<", 1
     yield "without the dead zone it is dearer", lambda: r.cpu("Alluvium, no dead zone, steps of 0.1 ms", "no dead zone, 1e-05") / r.cpu("Alluvium, steps of 0.1 ms", "0.1 ms, 1e-05"), ">", 1.5
     for peer in ("MigFlow", "Siconos", "LAMMPS"):
-        yield "for 1e-4 d of overlap %s takes more than ten times our CPU time" % peer, lambda peer=peer: cheapest(peer) / cheapest("Alluvium"), ">", 10
+        yield "for 1e-4 d of overlap %s takes more than ten times our CPU time" % peer, lambda peer=peer: cheapest(peer) / cheapest("Alluvium, steps"), ">", 10
     yield "MigFlow's contact_forces() are zero on a bed at rest", lambda: r.value("MigFlow, steps of 0.1 ms", "MigFlow 1e-8", "contact_forces() over weight"), "==", 0
     yield "the array behind them has the weight within 10 %", lambda: abs(r.value("MigFlow, steps of 0.1 ms", "MigFlow 1e-8", "the array behind it over weight") - 1), "<", 0.1
     yield "springs at rest carry the weight within 1e-5", lambda: peers.best(r, CARRIED, "LAMMPS").errors[CARRIED], "<", 1e-5
-    yield "under peclet's impulses the walls carry less than 0.9 of it", lambda: max(x.values["walls over weight"] for x in r.some("peclet, impulses", "walls over weight")), "<", 0.9
+    yield "under peclet's impulses grains overlap by more than 0.1 d on the average", lambda: r.error("peclet, impulses", "impulses 1e-4, 50", PLACES), ">", 0.1
 
 
 def says(r):
     cheapest = lambda series: peers.cheapest(r, PLACES, 1e-4, series).cpu_s
     return ("With an overlap of at most 1e-4 d our program holds the bed for %.2g s of CPU time, MigFlow for %.2g s (%.2g s in the same steps of 0.1 ms are ours), Siconos' solver for %.2g s and LAMMPS for %.2g s. "
-            "What the walls carry is right within %.0e at best with ours and %.0e with LAMMPS, since springs at rest stay at rest. peclet's soft spheres carry it within %.1g %%; its impulses, with %s sweeps, do not hold 43 layers in "
-            "single precision: walls carry %.2g to %.2g of the weight."
-            % (cheapest("Alluvium"), cheapest("MigFlow"), cheapest("Alluvium, steps of 0.1 ms"), cheapest("Siconos"), cheapest("LAMMPS"), peers.best(r, CARRIED, "Alluvium").errors[CARRIED],
-               peers.best(r, CARRIED, "LAMMPS").errors[CARRIED], 100 * peers.best(r, CARRIED, "peclet, Hertz").errors[CARRIED], "50 to 500",
-               min(x.values["walls over weight"] for x in r.some("peclet, impulses", "walls over weight")), max(x.values["walls over weight"] for x in r.some("peclet, impulses", "walls over weight"))))
+            "What the walls carry is right within %.0e at best with ours and %.0e with LAMMPS, since springs at rest stay at rest. peclet's soft spheres carry it within %.1g %%; its impulses, with 50 sweeps in steps of 0.1 ms, do not hold "
+            "43 layers: grains overlap by %.2g d on the average."
+            % (cheapest("Alluvium, steps"), cheapest("MigFlow"), cheapest("Alluvium, steps of 0.1 ms"), cheapest("Siconos"), cheapest("LAMMPS"), peers.best(r, CARRIED, "Alluvium").errors[CARRIED],
+               peers.best(r, CARRIED, "LAMMPS").errors[CARRIED], 100 * peers.best(r, CARRIED, "peclet, Hertz").errors[CARRIED],
+               r.error("peclet, impulses", "impulses 1e-4, 50", PLACES)))
