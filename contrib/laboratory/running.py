@@ -143,8 +143,8 @@ class Runner:
             self.bed  # before there are threads that want it
         start, waiting = time.monotonic(), set(todo)
         guess = lambda i: took.get((points[i].series, points[i].label)) or (statistics.median(took.values()) if took else 1.0)
-        # the references alone: they fill the cache of deposits; without one, a run that is not counted does
-        if todo and not any(p.reference for p in points) and not points[todo[0]].command:
+        # the references alone: they fill the cache of deposits; without one, a run that is not counted does, where CPU times are compared
+        if todo and self.study.chart.kind != "curves" and not any(p.reference for p in points) and not points[todo[0]].command:
             self.one(points[todo[0]])
         first, rest = [i for i in todo if points[i].reference], [i for i in todo if not points[i].reference]
         n = 0
