@@ -262,8 +262,10 @@ def claims(r):
 def says(r):
     res, ns = exponents(r)
     _, felice = exponents(r, ", Di Felice")
+    if not felice:
+        raise Missing("Di Felice's exponent was not run")
     return ("With the default drag law the exponent falls from %.2f at Re %.2g to %.2f at Re %.2g, where spheres have %.2f and %.2f; with Di Felice's exponent from %.2f to %.2f, and within %.2g of spheres everywhere: "
             "take that to compare with suspensions of sand or glass. The program follows its law within %.1f %% in speed, %.2g in n; discs at random places have n = %.2f at Re 4.5. "
-            "The upper front of a batch takes %s times Kynch's time to half of its way."
+            "The upper front of a batch takes %s times Kynch's time to half of its way: discs at random places sink in crowds, the more so the fewer they are."
             % (ns[0], res[0], ns[-1], res[-1], of_spheres(res[0]), of_spheres(res[-1]), felice[0], felice[-1], off_spheres(r, ", Di Felice"), 100 * worst(r), max(off_law(r), off_law(r, ", Di Felice")),
                exponents(r, ", random")[1][0], ", ".join("%.2f (packing %g)" % (late(r, phi), phi) for phi in BATCH)))

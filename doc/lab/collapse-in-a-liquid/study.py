@@ -11,7 +11,8 @@ that, 0.7 s in the experiment and 0.06 s here; pressures over phi (rho_p - rho) 
 these. So drag, weight and head are right. What is not: by how much a bed contracts or dilates before it flows. Spheres at 0.55 and 0.60 are 3.5 %% below and 5.3 %% above the packing at which they flow (0.57 in SedFoam's model); discs at 0.78 and 0.83 are 2.5 %% below and 3.7 %% above
 some 0.80. A third column, `loosened`, has discs of random sizes, %.2g by area, on a triangular lattice, which do not touch yet: looser than a deposit can be, it tells how much of the difference is the mapping's.
 
-**What can be compared**, then: the order of the two, the sign of the pressure, its size over the weight, and the times' ratio. **What not**: lengths in beads, and what happens within a few beads of the front.
+**What can be compared**, then: the order of the two, the sign of the pressure, its size over the weight, and the times' ratio. **What not**: lengths in beads, and what happens within a few beads of the front. The pressure of such small columns is not steady either: with 300 discs the loose one's mean over the
+first unit of time was -0.11, with 400 it is positive.
 """
 import math
 import random
@@ -87,7 +88,7 @@ def points(quick):
         files = {"discs.csv": loosened(400)} if kind == "loosened" else {}
         if quick:
             if not files:
-                yield Point(kind, "300 discs", column(kind, 300, 3))
+                yield Point(kind, "400 discs", column(kind, 400, 4))
             continue
         yield Point(kind, "400 discs", column(kind, 400, 24), files=files)
     if not quick:
@@ -165,13 +166,7 @@ chart = Curves(panels={FRONT: ("time / (eta H_0/(drho g d^2))", "front / L_0"), 
 
 
 def value(r, kind, name):
-    """Of the larger column that was run."""
-    for label in ("400 discs", "300 discs"):
-        try:
-            return r.value(kind, label, name)
-        except Missing:
-            continue
-    raise Missing("no %s column was run" % kind)
+    return r.value(kind, "400 discs", name)
 
 
 def claims(r):
