@@ -18,9 +18,9 @@ D = 2.2e-4
 
 
 def full_size():
-    """[(width over d, head at the heave over the exact onset)] of the paper's sample, from the study of its figure."""
+    """[(width over d, head at the heave over the exact onset, head [m])] of the paper's sample, from the study of its figure."""
     with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "paper-figure", "results.csv")) as file:
-        return [(0.05 / D, float(row["value: head at total heave [m]"]) / float(row["value: exact head [m]"]))
+        return [(0.05 / D, float(row["value: head at total heave [m]"]) / float(row["value: exact head [m]"]), float(row["value: head at total heave [m]"]))
                 for row in csv.DictReader(file) if row["label"] == "full size" and row["status"] == "done"]
 
 
@@ -28,7 +28,7 @@ def beside(panel, results):
     if panel != LATER:
         return
     found = sorted([(r.values["width over d"], r.values["heave over exact"]) for r in results
-                    if r.done and r.point.series == "walls with friction" and "low" not in r.point.label] + full_size())
+                    if r.done and r.point.series == "walls with friction" and "low" not in r.point.label] + [full[:2] for full in full_size()])
     yield "by width; the widest is the paper's", [w for w, _ in found], [h for _, h in found], "both"
 
 
@@ -92,5 +92,5 @@ def says(r):
     exact = 100 * value("16 d", "exact head [m]")
     return ("At the full height a bed of 16 d heaves at %.1f cm of head, of 33 d at %.1f cm, the paper's of 227 d at %.1f cm; the exact onset is at %.1f cm. A bed of 55 layers and 16 d heaves at %.2f times its exact onset between walls with friction, at %.2f between smooth ones. "
             "A bed that weighs what the water sees, as sand does, has its onset at %.1f cm and heaves at %.1f cm: what mass is meant matters more than all else here."
-            % (100 * value("16 d", "head at heave [m]"), 100 * value("33 d", "head at heave [m]"), exact * full_size()[0][1], exact, r.value(*LOW, "heave over exact"), r.value(*SMOOTH_LOW, "heave over exact"),
+            % (100 * value("16 d", "head at heave [m]"), 100 * value("33 d", "head at heave [m]"), 100 * full_size()[0][2], exact, r.value(*LOW, "heave over exact"), r.value(*SMOOTH_LOW, "heave over exact"),
                100 * value("16 d, light", "exact head [m]", "weighs what the water sees"), 100 * value("16 d, light", "head at heave [m]", "weighs what the water sees")))
