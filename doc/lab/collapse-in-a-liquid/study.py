@@ -159,7 +159,7 @@ def beside(panel, r):
             data = [(t / clock(height), p / weight) for t, p in PRESSURES[kind]]
         else:
             data = [(0.01 * x / width, 0.01 * y / width) for x, y in SHAPES[kind]]
-        yield "experiment, %s" % kind, [a for a, _ in data], [b for _, b in data], "marks", {"loose": 0, "dense": 2}[kind]
+        yield "experiment, %s" % kind, [a for a, _ in data], [b for _, b in data], "marks", {"loose": 0, "dense": 1}[kind]
 
 
 chart = Curves(panels={FRONT: ("time / (eta H_0/(drho g d^2))", "front / L_0"), PRESSURE: ("time / (eta H_0/(drho g d^2))", "pressure / (phi drho g H_0)"), SHAPE: ("x / L_0", "y / L_0")}, beside=beside)
