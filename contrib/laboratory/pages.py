@@ -35,8 +35,7 @@ def libraries(alluvium):
 
 
 def commands(study):
-    heavy = [p for p in study.points(False) if p.heavy]
-    return "contrib/lab %s%s" % (study.name, " --heavy" if heavy else "")
+    return "contrib/lab %s%s" % (study.name, " --heavy" if any(p.heavy for p in study.points(False)) else "")
 
 
 def accuracy_table(study, results):

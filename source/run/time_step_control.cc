@@ -155,7 +155,7 @@ namespace alluvium::run
         result = std::min(result, n * interval);
       }
     // a kink that lies beside another event, as one that was found to round-off, is met there: what is between them is no step
-    const double close = std::max(soon, same_kink());
+    const double close = same_kink();
     const auto   kink  = std::upper_bound(kinks.begin(), kinks.end(), time + close);
     return kink != kinks.end() && *kink < result - close ? *kink : result;
   }

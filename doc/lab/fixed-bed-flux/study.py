@@ -6,6 +6,7 @@ has two faces, at which the void fraction jumps, and a random inside. Swept: cel
 of 0.25 d and the smooth filter of 2.5 d, which is as wide as the default's even one of 2 d and whose flux has a limit
 ([report](../../reports/fixed-bed.md): an even disc has an edge, and the finer the mesh the more that costs).
 """
+from laboratory.meshes import at_faces, cells
 from laboratory.study import Chart, Point
 
 order = 1
@@ -13,15 +14,6 @@ scene = "bed.prm"
 chart = Chart()
 error_title = "error of the flux"
 floor = 1e-3  # what the reference's flux changes by from cells of 0.5 d to such of 0.25 d
-
-
-def cells(h):
-    return {"Mesh refinement/Criteria": "uniform", "Mesh refinement/Criteria: uniform/Cell size": h,
-            "Mesh refinement/Coarsest cell size": max(8, h), "Mesh refinement/Interval": 0}
-
-
-def at_faces(h):
-    return {"Mesh refinement/Criteria: bed faces/Cell size at the bottom": h, "Mesh refinement/Criteria: bed faces/Cell size at the top": h}
 
 
 SMOOTH = {"Coupling/Filter radius": "2.5 d", "Coupling/Filter shape": "smooth"}

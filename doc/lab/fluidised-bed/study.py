@@ -8,6 +8,7 @@ the bed's faces, steps of 0.1 ms, contacts to 1e-6.
 Movement grows out of contacts that slip, so settings that should not matter (another contact solver, a tighter tolerance) shift it, too. What
 is hatched is what steps of 0.3 ms differ from the reference by: 0.1 % of the head at the first movement, 0.25 % at the heave.
 """
+from laboratory.meshes import at_faces, cells
 from laboratory.study import Chart, Point
 
 order = 2
@@ -17,15 +18,6 @@ chart = Chart()
 floor = {"the first movement": 1e-3, "the heave": 2.5e-3}
 
 TIGHT = {"Contacts/Residual tolerance": 1e-6}
-
-
-def cells(h):
-    return {"Mesh refinement/Criteria": "uniform", "Mesh refinement/Criteria: uniform/Cell size": h,
-            "Mesh refinement/Coarsest cell size": max(8, h), "Mesh refinement/Interval": 0}
-
-
-def at_faces(h):
-    return {"Mesh refinement/Criteria: bed faces/Cell size at the bottom": h, "Mesh refinement/Criteria: bed faces/Cell size at the top": h}
 
 
 def points(quick):

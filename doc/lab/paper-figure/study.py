@@ -23,6 +23,7 @@ import sys
 import matplotlib.image
 
 from laboratory import ROOT
+from laboratory.meshes import at_faces
 from laboratory.study import Curves, Point
 
 order = 40
@@ -51,10 +52,6 @@ def beside(panel, results):
 chart = Curves(panels={MOTION: ("time [s]", "mass that moved by d [%]"), HEAD: ("time [s]", "differential head [mm]"),
                        FULL_MOTION: ("time [s]", "mass that moved by d [%]"), FULL_HEAD: ("time [s]", "differential head [cm]")}, beside=beside)
 error_title = "error of the onset"
-
-
-def at_faces(h):
-    return {"Mesh refinement/Criteria: bed faces/Cell size at the bottom": h, "Mesh refinement/Criteria: bed faces/Cell size at the top": h}
 
 
 def points(quick):

@@ -10,6 +10,7 @@ are predicted to fall (the flux comes out downwards); hydrostatic pressure is le
 filter of 2.5 d. peclet's fluid solver resolves grains in three dimensions, and LAMMPS and Siconos have no fluid.
 """
 from laboratory import peers
+from laboratory.meshes import cells
 from laboratory.study import Chart
 
 order = 15
@@ -24,11 +25,6 @@ jobs = 1
 program, cpu_says = peers.program, peers.CPU_SAYS
 SMOOTH = {"Coupling/Filter radius": "2.5 d", "Coupling/Filter shape": "smooth"}
 SCENE = {"--height": "0.0121", "--bed-height": "0.0095", "--radius-factor": "0.8"}
-
-
-def cells(h):
-    return {"Mesh refinement/Criteria": "uniform", "Mesh refinement/Criteria: uniform/Cell size": h,
-            "Mesh refinement/Coarsest cell size": max(8, h), "Mesh refinement/Interval": 0}
 
 
 def points(quick):

@@ -10,6 +10,7 @@ MigFlow wants contact forces to predict the grains' speeds in the fluid step, an
 `true contacts` reads the array behind them, which `contact_forces()` takes for half as long as it is. Contacts are solved to 1e-8 m, MigFlow's default.
 """
 from laboratory import peers
+from laboratory.meshes import at_faces, cells
 from laboratory.study import Chart
 
 order = 16
@@ -26,18 +27,12 @@ SCENE = {"--height": "0.02", "--bed-height": "0.0095", "--radius-factor": "0.8"}
 NOT_SPREAD = {"Coupling/Filter radius": "grain"}
 
 
-def cells(h):
-    return {"Mesh refinement/Criteria": "uniform", "Mesh refinement/Criteria: uniform/Cell size": h,
-            "Mesh refinement/Coarsest cell size": max(8, h), "Mesh refinement/Interval": 0}
-
-
 def points(quick):
     Point = peers.Point
     if quick:
         yield Point("Alluvium, steps of 1 ms", "0.5 ms", {"Time/Time step": 5e-4, "Contacts/Residual tolerance": 1e-6}, reference=True)
     else:
-        faces = "Mesh refinement/Criteria: bed faces/Cell size at the "
-        yield Point("Alluvium, steps of 1 ms", "to 0.5 d, 0.2 ms", {"Time/Time step": 2e-4, "Contacts/Residual tolerance": 1e-6, faces + "bottom": 0.5, faces + "top": 0.5}, reference=True)
+        yield Point("Alluvium, steps of 1 ms", "to 0.5 d, 0.2 ms", {"Time/Time step": 2e-4, "Contacts/Residual tolerance": 1e-6, **at_faces(0.5)}, reference=True)
     yield Point("Alluvium, as it is set", "chosen steps", {}, default=True)
     for h in [] if quick else [4, 2]:
         yield Point("Alluvium, even cells, chosen steps", "%g d" % h, cells(h))
