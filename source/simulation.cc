@@ -12,12 +12,14 @@
 #include <alluvium/run/run_guard.h>
 #include <alluvium/run/scene_report.h>
 #include <alluvium/run/set_up.h>
+#include <alluvium/run/slow_run.h>
 #include <alluvium/run/time_step_control.h>
 #include <alluvium/scene/declared_parameters.h>
 #include <alluvium/simulation.h>
 #include <alluvium/utilities/atomic_file.h>
 #include <alluvium/utilities/digits.h>
 #include <alluvium/utilities/divergence.h>
+#include <alluvium/utilities/pace.h>
 #include <alluvium/utilities/progress.h>
 #include <alluvium/utilities/signals.h>
 #include <alluvium/utilities/user_error.h>
@@ -44,10 +46,10 @@ namespace alluvium
       , guard(model, output)
     {}
 
-    void add_parameters(ParameterHandler &prm);
-    void report_scene() const;
-    void check(const ParameterHandler &prm, const std::string &directory);
-    void run(const ParameterHandler &prm, const std::string &directory);
+    void   add_parameters(ParameterHandler &prm);
+    double report_scene() const;
+    void   check(const ParameterHandler &prm, const std::string &directory);
+    void   run(const ParameterHandler &prm, const std::string &directory);
 
     run::Model  model;
     run::Output output;
@@ -69,8 +71,9 @@ namespace alluvium
     run::ModelChoice     model_choice;
 
     run::RunGuard guard;
-    bool          restart  = false;
-    std::string   progress = "automatic";
+    bool          restart           = false;
+    std::string   progress          = "automatic";
+    double        expected_duration = 0.; // of the run [s on the wall]
 
     std::unique_ptr<run::Checkpoint> checkpoint; // that a restart begins from
     std::vector<std::string>         changes;    // of parameters, since then
@@ -97,9 +100,9 @@ namespace alluvium
   }
 
 
-  void Simulation::Implementation::report_scene() const
+  double Simulation::Implementation::report_scene() const
   {
-    run::report_scene(model, output, time_step, model_choice, end_time, std::cout);
+    return run::report_scene(model, output, time_step, model_choice, end_time, std::cout);
   }
 
 
@@ -158,6 +161,8 @@ namespace alluvium
   {
     if (!time_step.automatic() || run::stable_step(model) == 0.)
       run::check_time_step(model);
+    else if (model.n_steps == 0)
+      run::check_number_of_steps(model, end_time);
   }
 
 
@@ -184,7 +189,7 @@ namespace alluvium
   {
     prepare(prm, directory, true);
     install_stop_signals();
-    report_scene();
+    expected_duration = report_scene();
     report_restart();
     if (restart)
       {
@@ -223,6 +228,7 @@ namespace alluvium
                                   : progress == "silent" ? Progress::Style::silent
                                                          : Progress::Style::automatic;
     Progress              shown(model.communicator, model.time, end_time, style, std::cout);
+    Pace                  pace(model.time, end_time, expected_duration);
     int                   signal = 0;
     guard.start();
     while (signal == 0 && !has_ended())
@@ -244,6 +250,7 @@ namespace alluvium
         watch_model();
         signal = stop_requested(model.communicator);
         guard.keep();
+        run::watch_pace(model, pace);
         shown.update(model.n_steps, model.time, model.time_step, guard.state_in_words());
       }
     shown.finish();

@@ -251,7 +251,7 @@ namespace alluvium::contacts
     implementation->choice.parse_parameters();
     implementation->law_choice.parse_parameters();
     implementation->cohesion_choice.parse_parameters();
-    if (implementation->model == "soft-sphere")
+    if (is_soft())
       refuse_with_soft_spheres(implementation->acting_law() || implementation->acting_cohesion());
   }
 
@@ -260,10 +260,15 @@ namespace alluvium::contacts
     return implementation->settings;
   }
 
+  bool ContactStepper::is_soft() const
+  {
+    return implementation->model == "soft-sphere";
+  }
+
   void ContactStepper::set_walls(std::vector<grains::WallSegment> walls)
   {
     const ContactMaterials materials = make_materials(settings(), walls);
-    if (implementation->model == "soft-sphere")
+    if (is_soft())
       refuse_with_soft_spheres(materials.rolls);
     implementation->local.geometry.walls.set(std::move(walls));
     implementation->forget();
@@ -348,13 +353,13 @@ namespace alluvium::contacts
   {
     return list_contact_forces(implementation->local,
                                grains,
-                               implementation->model == "soft-sphere" ? &implementation->soft_spheres : nullptr,
+                               is_soft() ? &implementation->soft_spheres : nullptr,
                                implementation->acting_cohesion());
   }
 
   double ContactStepper::spring_energy(const grains::GrainArrays &grains) const
   {
-    if (implementation->model != "soft-sphere")
+    if (!is_soft())
       return 0.;
     const ContactGeometry &geometry = implementation->local.geometry;
     ContactNeighbours      now; // the pairs in use may be older than the last change
@@ -365,7 +370,7 @@ namespace alluvium::contacts
 
   ContactMemory ContactStepper::memory() const
   {
-    const bool    has_history = implementation->model == "soft-sphere" || implementation->acting_cohesion() != nullptr;
+    const bool    has_history = is_soft() || implementation->acting_cohesion() != nullptr;
     ContactMemory result{implementation->local.geometry.walls.positions(), implementation->rest, {}};
     if (has_history)
       result.history = archive();

@@ -19,6 +19,18 @@ namespace alluvium::contacts
     {
       return std::min(0.02 * scales.g * scales.dt * scales.dt, 1e-3 * scales.diameter);
     }
+
+
+    /** Whether no surface moves by more than that in a step. */
+    bool are_slow(const grains::GrainArrays &grains, const Rest::Scales &scales)
+    {
+      const double speed = largest_move(scales) / scales.dt;
+      for (std::size_t k = 0; k < grains.n(); ++k)
+        if (square(grains.velocity[0][k], grains.velocity[1][k]) + square(grains.radius[k] * grains.omega[k], 0.) >
+            speed * speed)
+          return false;
+      return true;
+    }
   } // namespace
 
 
@@ -40,14 +52,8 @@ namespace alluvium::contacts
 
   bool Rest::holds(const grains::GrainArrays &grains, const grains::GrainLoads &loads, const Scales &scales) const
   {
-    if (steps == 0 || n_quiet < steps || !(scales.g > 0.) || !unchanged(grains, loads, scales))
-      return false;
-    const double speed = largest_move(scales) / scales.dt; // somebody else may have given them one
-    for (std::size_t k = 0; k < grains.n(); ++k)
-      if (square(grains.velocity[0][k], grains.velocity[1][k]) + square(grains.radius[k] * grains.omega[k], 0.) >
-          speed * speed)
-        return false;
-    return true;
+    // somebody else may have given them a velocity
+    return is_known() && scales.g > 0. && unchanged(grains, loads, scales) && are_slow(grains, scales);
   }
 
 
@@ -101,8 +107,11 @@ namespace alluvium::contacts
         fx      = loads.force[0];
         fy      = loads.force[1];
       }
+    // The step that brings a grain to a halt ends where it will stay, but its forces are not those of rest.
+    if (!are_slow(grains, scales))
+      n_quiet = std::min(n_quiet, least_steps() - 2);
     report.n_quiet = n_quiet;
-    if (n_quiet >= steps)
+    if (is_known())
       {
         last_report  = report;
         last_touched = touched;

@@ -327,6 +327,7 @@ namespace alluvium::coupling
   void Coupling::audit()
   {
     last.force_on_fluid = solver->interphase_force();
+    last.force_parts    = Utilities::MPI::sum(size_of_parts(map, pieces), space->communicator());
     if (solve.couples_rotation())
       last.torque_on_fluid = solver->interphase_torque();
   }

@@ -1,5 +1,8 @@
 #include <alluvium/coupling/piece_force.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace alluvium::coupling
 {
   PieceForce piece_force(const OverlapMap &map, const PieceState &state, const std::size_t k)
@@ -16,5 +19,20 @@ namespace alluvium::coupling
         result.force[d]    = x.gamma * (f.u[d] - result.velocity[d]) + x.e[d] - f.grad_p[d];
       }
     return result;
+  }
+
+
+  double size_of_parts(const OverlapMap &map, const PieceState &state)
+  {
+    double sum = 0.;
+    for (std::size_t k = 0; k < std::min(map.grain().size(), state.latest.size()); ++k)
+      {
+        const auto &f = state.latest[k];
+        const auto  v = piece_force(map, state, k).velocity;
+        sum += map.terms().shape[k].area *
+               (map.terms().exchange[k].gamma * (std::hypot(f.u[0], f.u[1]) + std::hypot(v[0], v[1])) +
+                std::hypot(f.grad_p[0], f.grad_p[1]));
+      }
+    return sum;
   }
 } // namespace alluvium::coupling

@@ -1,5 +1,6 @@
 #include <alluvium/grains/grain_columns.h>
 #include <alluvium/grains/grain_store.h>
+#include <alluvium/utilities/divergence.h>
 #include <alluvium/utilities/user_error.h>
 
 #include <deal.II/base/data_out_base.h>
@@ -166,8 +167,8 @@ namespace alluvium::grains
       return near(m % n_cells[0], n % n_cells[0]) && near(m / n_cells[0], n / n_cells[0]);
     }
 
-    /** Throws on all ranks, which have the same arrays. */
-    void check_positions() const
+    /** What to say of a grain that is not in the grid; all ranks have the same arrays. Empty if all are. */
+    std::string find_lost() const
     {
       for (std::size_t i = 0; i < grains.n(); ++i)
         {
@@ -179,9 +180,10 @@ namespace alluvium::grains
               text << "Grain " << grains.id[i] << " left the domain: it is at (" << x << ", " << y
                    << ") m, and the grains' grid reaches from (" << lower << ") to (" << upper
                    << ") m. Grains need walls around them, and a time step in which they cannot jump over them.";
-              throw UserError(text.str());
+              return text.str();
             }
         }
+      return {};
     }
 
     Point<2> place(const std::size_t i) const { return {grains.position[0][i], grains.position[1][i]}; }
@@ -313,7 +315,8 @@ namespace alluvium::grains
     for (std::size_t i = 1; i < grains().n(); ++i)
       AssertThrow(grains().id[i - 1] < grains().id[i], ExcMessage("Grains must be sorted by their ids."));
     implementation->choose_grid(lower, upper, skin);
-    implementation->check_positions();
+    if (const std::string lost = implementation->find_lost(); !lost.empty())
+      throw UserError(lost);
   }
 
 
@@ -325,7 +328,8 @@ namespace alluvium::grains
 
   void GrainStore::check_positions() const
   {
-    implementation->check_positions();
+    if (const std::string lost = implementation->find_lost(); !lost.empty())
+      throw Divergence(lost);
   }
 
 

@@ -68,15 +68,17 @@ namespace alluvium::observers
               }
             for (unsigned int d = 0; d < 2; ++d)
               defect = std::max(defect, std::abs(report.force_on_grains[d] + report.force_on_fluid[d]));
-            third_law = std::max(third_law, report.force_scale > 0. ? defect / report.force_scale : 0.);
-            statistics.set("third_law_defect", report.force_scale > 0. ? defect / report.force_scale : 0.);
+            // smaller forces are what the digits of their parts leave
+            constexpr double smallest = 1e-6;
+            const double     scale    = std::max(report.force_scale, smallest * report.force_parts);
+            const auto       share    = [&](const double difference) { return scale > 0. ? difference / scale : 0.; };
+            third_law                 = std::max(third_law, share(defect));
+            statistics.set("third_law_defect", share(defect));
             statistics.set("clipped_solid_volume_m2", report.clipped_volume);
             statistics.set("prediction_defect_mean_m_per_s", mean);
             statistics.set("prediction_defect_max_m_per_s", largest);
             statistics.set("momentum_not_received_over_force",
-                           report.force_scale > 0.
-                             ? std::hypot(report.momentum_defect[0], report.momentum_defect[1]) / report.force_scale
-                             : 0.);
+                           share(std::hypot(report.momentum_defect[0], report.momentum_defect[1])));
             statistics.set("fluid_residual", s.fluid->solver.last_report().residual);
           }
         if (s.contacts)
@@ -100,9 +102,10 @@ namespace alluvium::observers
           {
             // of the exchange, and of the weight: in still water the exchange is next to nothing
             constexpr double allowed = 1e-3, allowed_of_weight = 1e-5;
-            const double     missing = std::hypot(momentum_defect[0], momentum_defect[1]), share = missing / received;
+            const double     missing = std::hypot(momentum_defect[0], momentum_defect[1]),
+                         exchanged = std::max(received, 1e-12 * weight), share = missing / exchanged;
             summary.set("audit/momentum_not_received_over_impulse", share);
-            summary.set("audit/momentum_not_received_without_regard_to_sign", defect_gross / received);
+            summary.set("audit/momentum_not_received_without_regard_to_sign", defect_gross / exchanged);
             if (share > allowed && missing > allowed_of_weight * weight)
               summary.warn(
                 "More than 0.1 % of the momentum that fluid and grains exchanged did not reach the fluid (see "

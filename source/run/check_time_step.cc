@@ -89,4 +89,19 @@ namespace alluvium::run
            << " and tau_p = " << frozen.tau << " s" << line << ", or Time/Time step <= " << frozen.limit();
     m.warnings.add(text.str(), m.time);
   }
+
+
+  void check_number_of_steps(Model &m, const double end_time)
+  {
+    constexpr double many   = 1e4;
+    const double     stable = stable_step(m), n_steps = (end_time - m.time) / (stable_share * stable);
+    if (!(n_steps > many) || stable == 0.)
+      return;
+    std::ostringstream text;
+    text.precision(2);
+    text << "Coupling/Time scheme = " << m.coupling.scheme_name() << " keeps chosen time steps below " << stable_share
+         << " of its limit of stability, " << stable << " s with the grains as they are: about " << n_steps
+         << " steps to Time/End time. Use iterated, which has no such limit.";
+    m.warnings.add(text.str(), m.time);
+  }
 } // namespace alluvium::run

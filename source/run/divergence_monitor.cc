@@ -40,7 +40,7 @@ namespace alluvium::run
     prm.add_parameter("Largest penetration",
                       largest_penetration,
                       "Overlap of two grains, or of a grain and a wall, above which contacts have failed [diameters of "
-                      "the smaller grain].",
+                      "the smaller grain]. Above a fifth of it there is a warning, once.",
                       Patterns::Double(0.));
     prm.leave_subsection();
   }
@@ -110,33 +110,51 @@ namespace alluvium::run
   }
 
 
-  Sign DivergenceMonitor::judge_penetration(const Model &m) const
+  Sign DivergenceMonitor::judge_penetration(const Model &m, const double bound) const
   {
     // cheap first: the largest overlap of all against the smallest grain
     if (!m.grains_move || m.grains.n() == 0)
       return {};
     const double smallest = 2. * *std::min_element(m.grains.radius.begin(), m.grains.radius.end());
-    if (m.contact_report.max_penetration <= largest_penetration * smallest)
+    if (m.contact_report.max_penetration <= bound * smallest)
       return {};
     for (const auto &o :
-         contacts::find_overlaps(m.grains, m.contacts.walls(), largest_penetration * smallest, m.domain.periodicity()))
+         contacts::find_overlaps(m.grains, m.contacts.walls(), bound * smallest, m.domain.periodicity()))
       {
         const std::size_t a = number_of(m, o.a);
         const double      radius =
           o.wall.empty() ? std::min(m.grains.radius[a], m.grains.radius[number_of(m, o.b)]) : m.grains.radius[a];
         const double share = o.depth / (2. * radius);
-        if (share <= largest_penetration)
+        if (share <= bound)
           continue;
         const std::string partner = o.wall.empty() ? "grain " + std::to_string(o.b) : "the wall '" + o.wall + "'";
         return {"grain " + std::to_string(o.a) + " and " + partner + " overlap by",
                 share,
-                largest_penetration,
+                bound,
                 "diameters",
                 {{m.grains.position[0][a], m.grains.position[1][a]}},
                 "grain " + std::to_string(o.a),
                 more_room};
       }
     return {};
+  }
+
+
+  std::string DivergenceMonitor::doubt_overlap(const Model &m)
+  {
+    constexpr double part = 0.2; // of what ends the run
+    if (overlap_was_doubted)
+      return {};
+    const Sign sign = judge_penetration(m, part * largest_penetration);
+    if (sign.what.empty())
+      return {};
+    overlap_was_doubted = true;
+    std::ostringstream text;
+    text << sign.what << ' ' << sign.value
+         << " diameters of the smaller one: contacts are soft, or were not solved well. "
+         << (m.contacts.is_soft() ? "Try a larger Contacts/Soft spheres/Stiffness."
+                                  : smaller_step + ", or tighter tolerances in Contacts.");
+    return text.str();
   }
 
 
@@ -162,7 +180,8 @@ namespace alluvium::run
 
   void DivergenceMonitor::save(nlohmann::ordered_json &state) const
   {
-    state["divergence monitor"] = {unexplained, largest_share_of_bound, smallest_bound, of_late, flight};
+    state["divergence monitor"] = {
+      unexplained, largest_share_of_bound, smallest_bound, of_late, flight, overlap_was_doubted};
   }
 
 
@@ -178,6 +197,8 @@ namespace alluvium::run
         of_late = state.at("divergence monitor").at(3).get<double>();
         flight  = state.at("divergence monitor").at(4).get<double>();
       }
+    if (state.at("divergence monitor").size() > 5)
+      overlap_was_doubted = state.at("divergence monitor").at(5).get<bool>();
   }
 
 
@@ -197,7 +218,7 @@ namespace alluvium::run
                 smaller_step + "."};
       }
     Sign energy = judge_energy(m, s);
-    if (Sign sign = judge_penetration(m); !sign.what.empty())
+    if (Sign sign = judge_penetration(m, largest_penetration); !sign.what.empty())
       {
         calm = false;
         return sign;

@@ -104,6 +104,8 @@ namespace alluvium::run
     const Sign sign  = monitor.judge(model, measures);
     if (!sign.what.empty())
       raise(sign, model.n_steps, model.time);
+    else if (const std::string doubt = monitor.doubt_overlap(model); !doubt.empty())
+      model.warnings.add(doubt, model.time);
   }
 
 
@@ -240,7 +242,14 @@ namespace alluvium::run
         if (monitor.is_calm())
           write_checkpoint();
         else
-          write_good_state();
+          {
+            std::ostringstream text;
+            text << "the last steps are in doubt, so that the checkpoint is an earlier one: energy that nothing has "
+                    "supplied has reached "
+                 << monitor.largest_share() << " of what ends a run. Try a smaller Time/Time step.";
+            model.warnings.add(text.str(), model.time);
+            write_good_state();
+          }
       }
     if (signal != 0)
       output.conclude({"interrupted", "stopped by " + signal_name(signal), 0});

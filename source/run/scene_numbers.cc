@@ -90,11 +90,11 @@ namespace alluvium::run
   } // namespace
 
 
-  SceneNumbers find_scene_numbers(const Model &m, const double end_time)
+  SceneNumbers find_scene_numbers(const Model &m, const double end_time, const double longest_step)
   {
     SceneNumbers s;
     const auto  &g = m.grains;
-    s.n_steps      = std::max(0., std::ceil((end_time - m.time) / m.time_step - 1e-6));
+    s.n_steps      = std::max(0., std::ceil((end_time - m.time) / std::min(m.time_step, longest_step) - 1e-6));
     s.diameter     = grains::mean_diameter(g);
     if (g.n() > 0)
       s.radius_factor = g.fluid_radius[0] / g.radius[0];

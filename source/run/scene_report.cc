@@ -1,4 +1,5 @@
 #include <alluvium/grains/packing.h>
+#include <alluvium/run/check_time_step.h>
 #include <alluvium/run/model.h>
 #include <alluvium/run/model_choice.h>
 #include <alluvium/run/output.h>
@@ -112,16 +113,18 @@ namespace alluvium::run
   } // namespace
 
 
-  void report_scene(const Model           &m,
-                    const Output          &output,
-                    const TimeStepControl &control,
-                    const ModelChoice     &choice,
-                    const double           end_time,
-                    std::ostream          &out)
+  double report_scene(const Model           &m,
+                      const Output          &output,
+                      const TimeStepControl &control,
+                      const ModelChoice     &choice,
+                      const double           end_time,
+                      std::ostream          &out)
   {
-    const SceneNumbers s = find_scene_numbers(m, end_time); // collective
+    const double       stable  = control.automatic() ? stable_step(m) : 0.;
+    const double       longest = stable > 0. ? stable_share * stable : std::numeric_limits<double>::infinity();
+    const SceneNumbers s       = find_scene_numbers(m, end_time, longest); // collective
     if (!m.is_root)
-      return;
+      return s.time;
     const auto line = [&](const std::string &what, const std::string &text) {
       out << "  " << what << std::string(what.size() < 12 ? 12 - what.size() : 1, ' ') << text << '\n';
     };
@@ -215,5 +218,6 @@ namespace alluvium::run
          rounded(s.n_steps) + " steps; roughly " + rounded(s.memory / 1e9) + " GB of memory and " +
            duration_in_words(s.time) + " on an idle machine, if grains move all the time");
     out << std::flush;
+    return s.time;
   }
 } // namespace alluvium::run

@@ -154,7 +154,8 @@ namespace alluvium::run
           n += 1.;
         result = std::min(result, n * interval);
       }
-    // a kink that lies beside another event, as one that was found to round-off, is met there: what is between them is no step
+    // a kink that lies beside another event, as one that was found to round-off, is met there: what is between them is
+    // no step
     const double close = same_kink();
     const auto   kink  = std::upper_bound(kinks.begin(), kinks.end(), time + close);
     return kink != kinks.end() && *kink < result - close ? *kink : result;
@@ -200,7 +201,7 @@ namespace alluvium::run
         end_of_this = model.time + model.time_step;
         return;
       }
-    dt_before          = model.time_step;
+    dt_before = model.time_step;
     const bool at_kink =
       std::any_of(kinks.begin(), kinks.end(), [&](const double t) { return std::abs(t - model.time) <= same_kink(); });
     is_smooth = has_history && !at_kink;
@@ -214,11 +215,10 @@ namespace alluvium::run
     constexpr unsigned int stable_interval = 20;
     if (model.n_steps % stable_interval == 0 || !(stable > 0.))
       stable = stable_step(model);
-    constexpr double safety = 0.8;
-    double           dt     = wanted;
-    if (stable > 0. && safety * stable < dt) // 0: no step is stable, which has been warned of
+    double dt = wanted;
+    if (stable > 0. && stable_share * stable < dt) // 0: no step is stable, which has been warned of
       {
-        dt           = safety * stable;
+        dt           = stable_share * stable;
         coming.limit = "stability";
       }
     set(dt);

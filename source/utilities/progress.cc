@@ -1,7 +1,7 @@
 #include <alluvium/utilities/progress.h>
+#include <alluvium/utilities/timers.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <ostream>
@@ -13,11 +13,6 @@ namespace alluvium
 {
   namespace
   {
-    double steady_seconds()
-    {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-    }
-
     /** Of the terminal that standard output is; much, where it is none. */
     std::size_t terminal_width()
     {
@@ -51,7 +46,7 @@ namespace alluvium
     : start_time(start_time)
     , end_time(end_time)
     , out(out)
-    , clock(wall_clock ? std::move(wall_clock) : Clock(steady_seconds))
+    , clock(wall_clock ? std::move(wall_clock) : Clock(wall_seconds))
     , style(wanted)
     , time(start_time)
   {

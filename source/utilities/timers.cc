@@ -21,15 +21,20 @@ namespace alluvium
     }
   } // namespace
 
+  double wall_seconds()
+  {
+    return seconds(CLOCK_MONOTONIC);
+  }
+
   Timers::Scope::Scope(Phase &phase)
     : phase(phase)
-    , wall_start(seconds(CLOCK_MONOTONIC))
+    , wall_start(wall_seconds())
     , cpu_start(seconds(CLOCK_PROCESS_CPUTIME_ID))
   {}
 
   Timers::Scope::~Scope()
   {
-    phase.wall += seconds(CLOCK_MONOTONIC) - wall_start;
+    phase.wall += wall_seconds() - wall_start;
     phase.cpu += seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu_start;
     ++phase.calls;
   }

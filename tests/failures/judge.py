@@ -11,8 +11,9 @@ import subprocess
 from run import Failed, read_grains
 
 CPU, MEMORY = 60, 8 << 30  # [s], [bytes] of addresses
-# outcomes, from good to bad; those after `diverged` are findings
-GOOD = ("finished", "with a warning", "refused", "diverged")
+TOLD = ("this run will take", "times its limit of stability", "it is unstable at any time step", "keeps chosen time steps below")  # of long runs
+# outcomes, from good to bad; those in BAD are findings
+GOOD = ("finished", "with a warning", "refused", "diverged", "slow")
 BAD = ("nonsense", "silent", "late", "words", "gave up", "crash", "hang")
 
 
@@ -56,7 +57,10 @@ def judge(program, names, scene, folder):
     code, errors, cpu = call(program, folder, "scene.prm", "--set", "Output/Output folder=output")
     messages = [line[len("alluvium: error: "):] for line in errors.split("\n") if line.startswith("alluvium: error: ")]
     said = " ".join(messages)
-    if cpu >= CPU:
+    if cpu >= CPU - 1:
+        warnings = [line for line in errors.split("\n") if any(word in line for word in TOLD)]
+        if warnings:
+            return Verdict("slow", warnings[0], code, cpu)
         return Verdict("hang", f"more than {CPU} s of CPU time", code, cpu)
     if code < 0 or code not in (0, 1, 2, 3):
         return Verdict("crash", errors.strip()[-300:], code, cpu)
@@ -131,13 +135,16 @@ def look(scene, columns, summary, grains):
 
     check("void fraction below 0", -min(numbers(columns.get("smallest_void_fraction")), default=1.), 1e-9, 1e-6)
     check("void fraction above 1", max(numbers(columns.get("largest_void_fraction")), default=0.) - 1., 1e-9, 1e-6)
-    check("solid clipped over all", clipped(columns, grains), 1e-3, 1e-2)
+    check("solid clipped over all", clipped(scene, columns, grains), 1e-3, 1e-2)
     check("penetration / d", penetration(scene, grains), 0.02, 0.11)
     check("third law", max(numbers(columns.get("third_law_defect")), default=0.), 1e-9, 1e-6)
     check("fluid's residual", max(numbers(columns.get("fluid_residual")), default=0.), 2e-6, 1e-4, "linear solves")
     check("flux imbalance", max(map(abs, numbers(columns.get("flux_imbalance"))), default=0.), 1e-4, 1e-2)
-    check("momentum of grains", momentum(scene, columns, grains), 1e-3, 2e-2)
-    check("momentum not received", summary.get("audit", {}).get("momentum_not_received_over_impulse", 0.) or 0., 2e-2, math.inf, "momentum")
+    lost_momentum = not_received(columns, summary)
+    # what grains got and the fluid did not is told as a share of what was exchanged, which is no balance; nor is one with grains of another time
+    balanced = lost_momentum <= 2e-2 and not summary.get("run", {}).get("checkpoint")
+    check("momentum of grains", momentum(scene, columns, grains) if balanced else 0., 1e-3, 2e-2)
+    check("momentum not received", lost_momentum, 2e-2, math.inf, "momentum")
     check("energy from nowhere", summary.get("energy", {}).get("unexplained_gain_over_exchanged", 0.) or 0., 0.5, math.inf, "unexplained")
     check("speed over what drives it", speed(scene, columns, grains), 3., 10.)
     check("grains outside", outside(scene, grains), 0, 0)
@@ -145,9 +152,17 @@ def look(scene, columns, summary, grains):
     return wrong, doubts, measures
 
 
-def clipped(columns, grains):
-    solid = sum(math.pi * g[3]**2 for g in grains.values())
-    return max(numbers(columns.get("clipped_solid_volume_m2")), default=0.) / solid if solid else 0.
+def clipped(scene, columns, grains):
+    """Of the grains that are there at the end: while others leave, only their own."""
+    solid, volumes = sum(math.pi * g[3]**2 for g in grains.values()), numbers(columns.get("clipped_solid_volume_m2"))
+    return max(volumes[-1:] if scene.open_to_grains else volumes, default=0.) / solid if solid else 0.
+
+
+def not_received(columns, summary):
+    """The part of the exchanged momentum that did not reach the fluid; zero where the exchange is nothing beside the weight."""
+    share = summary.get("audit", {}).get("momentum_not_received_over_impulse", 0.) or 0.
+    forces = [abs(x) for x in numbers(columns.get("fluid_force_over_weight"))[1:]]
+    return share if not forces or share * sum(forces) / len(forces) > 1e-5 else 0.
 
 
 def near(x, length, periodic):
@@ -217,6 +232,8 @@ def speed(scene, columns, grains):
             pressures.append(max(abs(condition[1]), abs(condition[1] + condition[2] * duration)))
     g = math.hypot(*scene.gravity)
     light = 1. if scene.dry else min(scene.rho, scene.density)
+    if 0 in scene.periodic or 1 in scene.periodic:  # no wall ends a fall there
+        given.append((g + (math.hypot(*scene.force) + math.hypot(*scene.gradient)) / light) * duration)
     pull = 2 * sum(pressures) + 2 * (scene.density + scene.rho) * g * size + (math.hypot(*scene.force) + math.hypot(*scene.gradient)) * size
     kinetic = max([scene.density * v**2 for v in given], default=0.)
     bonds = 0.

@@ -4,7 +4,7 @@ Rondon, Pouliquen and Aussillous (Phys. Fluids 23, 2011, 073301) let columns of 
 it runs out fast and far; a dense one (0.60) must dilate first, sucks liquid in, and creeps. Their fronts, the pressure of the liquid under the column and their final shapes are those of the tables that come with SedFoam's tutorial
 2DCollapse (github.com/SedFoam/sedfoam, tutorials/Py/DATA/Rondon2012), read off by its authors. Beads, liquid and drag (law `sphere`) are the experiment's.
 
-**Size and time.** The experiment's columns of 6 cm hold 50,000 beads in a plane; here they have 400 discs, 17 d high instead of 200, and one 1,200. Lengths are over L_0. Times are over eta H_0/((rho_p - rho) g d^2), in which the liquid drains through a column as high as
+**Size and time.** The experiment's columns of 6 cm hold 50,000 beads in a plane; here they have 400 discs, 17 d high instead of 200, 1,200 and, with `--heavy`, 3,600, 51 d high. Lengths are over L_0. Times are over eta H_0/((rho_p - rho) g d^2), in which the liquid drains through a column as high as
 that, 0.7 s in the experiment and 0.06 s here; pressures over phi (rho_p - rho) g H_0.
 
 **How packing is mapped.** Discs cannot be packed 0.55. They are deposited as loosely and as densely as deposits go, %.2g and %.2g by area; the fluid sees discs that are smaller, so that its packing is the experiment's, 0.55 and 0.60, and they weigh as
@@ -26,7 +26,7 @@ __doc__ = __doc__ % (LOOSE, DENSE, LOOSENED)
 
 order = 54
 scene = "column.prm"
-limit = 900
+limit = 4000
 G, D, DRHO, ETA, AREA = 9.81, 0.2255e-3, 1490.0, 0.01212, 4.0e-8  # mean diameter [m], area of a disc [m^2]
 KINDS = {"loose": (LOOSE, 0.55, 4.8 / 6), "dense": (DENSE, 0.60, 4.2 / 6), "loosened": (LOOSENED, 0.55, 4.8 / 6)}  # packing of the discs, of the fluid, aspect ratio
 FRONT, PRESSURE, SHAPE = "front", "pressure of the liquid under the column", "deposit"
@@ -91,8 +91,10 @@ def points(quick):
                 yield Point(kind, "400 discs", column(kind, 400, 4))
             continue
         yield Point(kind, "400 discs", column(kind, 400, 24), files=files)
-    if not quick:
-        yield Point("loosened", "1200 discs", column("loosened", 1200, 8), files={"discs.csv": loosened(1200)})
+    for kind in [] if quick else KINDS:
+        if kind == "loosened":
+            yield Point(kind, "1200 discs", column(kind, 1200, 8), files={"discs.csv": loosened(1200)})
+        yield Point(kind, "3600 discs", column(kind, 3600, 12), files={"discs.csv": loosened(3600)} if kind == "loosened" else {}, heavy=True)
 
 
 def front_of(grains, width):
@@ -144,7 +146,7 @@ def curves(run, point):
     times, fronts, pressures = history(run, point)
     _, last = run.picture("grains", run.time[-1])
     found = {FRONT: (times, fronts), PRESSURE: (times[1:], pressures[1:])}
-    return {**found, SHAPE: top_of(last, width)} if point.label == "400 discs" else found
+    return found if point.label == "1200 discs" else {**found, SHAPE: top_of(last, width)}
 
 
 # --- what is shown and said

@@ -56,6 +56,9 @@ namespace alluvium::contacts
 
     ContactSettings &settings();
 
+    /** Whether contacts are springs, not impulses. */
+    bool is_soft() const;
+
     /** Throws UserError for settings that do not fit them, such as a wall's name that is not among them. */
     void                                    set_walls(std::vector<grains::WallSegment> walls);
     const std::vector<grains::WallSegment> &walls() const; // where they are now, if they move

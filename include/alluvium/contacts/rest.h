@@ -5,6 +5,7 @@
 #include <alluvium/grains/periodicity.h>
 #include <alluvium/utilities/checked_file.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -59,6 +60,10 @@ namespace alluvium::contacts
     std::vector<double>          x, y, fx, fy; // positions and loads that have not changed since
     ContactReport                last_report;
     std::vector<std::uint8_t>    last_touched;
+
+    /** In the last of which grains were slow from beginning to end: its forces balance. */
+    unsigned int least_steps() const { return std::max(steps, 2u); }
+    bool         is_known() const { return steps > 0 && n_quiet >= least_steps(); }
 
     /** Whether places and loads are those of the references. */
     bool unchanged(const grains::GrainArrays &grains, const grains::GrainLoads &loads, const Scales &scales) const;

@@ -15,7 +15,8 @@ namespace alluvium::coupling
       {0., 0.}}; // what the fluid gave the grains, weight of displaced fluid aside [N/m]
     std::array<double, 2> force_on_fluid = {{0., 0.}}; // what the fluid's equations received [N/m]; only from audit()
     double                force_scale    = 0.;         // sum of |force| over the grains [N/m]
-    double                force_outside_range = 0.;    // of that, on those outside the range of the drag law [N/m]
+    double                force_parts    = 0.; // sum of the sizes of what those are differences of [N/m]; from audit()
+    double                force_outside_range = 0.; // of that, on those outside the range of the drag law [N/m]
     // with their moments about the origin, where rotation is coupled; the second only from audit() [N]
     double                torque_on_grains = 0., torque_on_fluid = 0.;
     std::array<double, 2> momentum_defect = {{0., 0.}}; // sum of Coupling::momentum_defect() [N/m]

@@ -50,7 +50,8 @@ namespace alluvium::grains
     /** Whether grains may be outside the grid: their particles wait in its nearest cell until they are taken out. */
     void let_leave(bool yes);
 
-    /** Throws UserError naming grain and position, on all ranks, if a position is not finite or outside the grid. */
+    /** In a run: throws a Divergence that names grain and position, on all ranks, if that is not finite or outside the
+     * grid. */
     void check_positions() const;
 
     /** The particles, up to date, with the columns but for the position as properties. Collective. */

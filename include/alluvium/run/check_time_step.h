@@ -16,4 +16,13 @@ namespace alluvium::run
    * see doc/theory/coupling.md: with the factor by which it is too long, and what would do. Collective.
    */
   void check_time_step(Model &model);
+
+  /** Of the longest step that the scheme stands, what a chosen one may be. */
+  constexpr double stable_share = 0.8;
+
+  /**
+   * Warn at the start of a run to @p end_time [s] with chosen steps if the scheme makes them so short that they are
+   * very many. Collective.
+   */
+  void check_number_of_steps(Model &model, double end_time);
 } // namespace alluvium::run

@@ -46,6 +46,9 @@ namespace alluvium::run
     /** Judge the contacts of a step that is not at its end: grains may be where they cannot be kept. */
     Sign judge_contacts(const Model &model) const;
 
+    /** What to warn of, if grains overlap so much that contacts cannot be called hard; once. */
+    std::string doubt_overlap(const Model &model);
+
     /** For checkpoints: what it remembers from step to step; of a checkpoint without that, nothing. */
     void save(nlohmann::ordered_json &state) const;
     void load(const nlohmann::ordered_json &state);
@@ -60,7 +63,7 @@ namespace alluvium::run
     double noise(const Model &model) const;
     double kinetic_of_late(const Model &model, const StepMeasures &measures);
     Sign   judge_energy(const Model &model, const StepMeasures &measures);
-    Sign   judge_penetration(const Model &model) const;
+    Sign   judge_penetration(const Model &model, double bound) const; // of depth over diameter [-]
 
     bool   stop                   = true;
     double largest_penetration    = 0.1;
@@ -71,6 +74,7 @@ namespace alluvium::run
     double flight                 = 0.; // for how long [s]
     double longest_step           = 0.; // [s]
     bool   calm                   = true;
+    bool   overlap_was_doubted    = false;
   };
 
   /** What the user reads: what, where and in what step, that ended at @p time [s], by what sign, and what to try. */

@@ -2,6 +2,7 @@
 
 #include <alluvium/grains/bed_packing.h>
 
+#include <limits>
 #include <string>
 
 namespace alluvium::run
@@ -38,8 +39,10 @@ namespace alluvium::run
            time = 0.; // [-], [byte] of all ranks, [s]; the latter two within a factor of some
   };
 
-  /** Collective. */
-  SceneNumbers find_scene_numbers(const Model &model, double end_time);
+  /** Of a run to @p end_time [s] by steps as they are now, or of @p longest_step [s] if that is shorter. Collective. */
+  SceneNumbers find_scene_numbers(const Model &model,
+                                  double       end_time,
+                                  double       longest_step = std::numeric_limits<double>::infinity());
 
   /** Seconds, minutes, hours or days. */
   std::string duration_in_words(double seconds);

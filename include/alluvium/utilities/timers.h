@@ -8,6 +8,9 @@
 
 namespace alluvium
 {
+  /** Seconds on the wall since some time in the past, by a clock that nobody sets. */
+  double wall_seconds();
+
   /** Where the time goes: wall and CPU seconds by phase, summed over the run. A phase inside another counts in both. */
   class Timers
   {
