@@ -279,7 +279,7 @@ namespace alluvium
       {
         const auto timer = m.timers.scope("contacts");
         m.touched        = m.contacts.touched();
-        m.store.check_positions();
+        m.store.check_positions(m.time_step);
         run::count_leavers(m);
       }
     m.time = m.clock.at(++m.n_steps);

@@ -167,8 +167,11 @@ namespace alluvium::grains
       return near(m % n_cells[0], n % n_cells[0]) && near(m / n_cells[0], n / n_cells[0]);
     }
 
-    /** What to say of a grain that is not in the grid; all ranks have the same arrays. Empty if all are. */
-    std::string find_lost() const
+    /**
+     * Throws, on all ranks, which have the same arrays, if a grain is not in the grid: a Divergence if it can have got
+     * there in one step of @p dt [s], else a UserError.
+     */
+    void check_positions(const double dt) const
     {
       for (std::size_t i = 0; i < grains.n(); ++i)
         {
@@ -178,12 +181,14 @@ namespace alluvium::grains
             {
               std::ostringstream text;
               text << "Grain " << grains.id[i] << " left the domain: it is at (" << x << ", " << y
-                   << ") m, and the grains' grid reaches from (" << lower << ") to (" << upper
-                   << ") m. Grains need walls around them, and a time step in which they cannot jump over them.";
-              return text.str();
+                   << ") m, and the grains' grid reaches from (" << lower << ") to (" << upper << ") m. ";
+              const double speed = std::hypot(grains.velocity[0][i], grains.velocity[1][i]);
+              if (!(dt * speed < grains.radius[i]))
+                throw Divergence(text.str() + "It has jumped over what should have kept it.");
+              throw UserError(text.str() + "Nothing keeps it: grains need walls around them. See Grains/Extra walls, "
+                                           "Grains/Motion of walls, and Domain/Open to grains, where they may leave.");
             }
         }
-      return {};
     }
 
     Point<2> place(const std::size_t i) const { return {grains.position[0][i], grains.position[1][i]}; }
@@ -315,8 +320,7 @@ namespace alluvium::grains
     for (std::size_t i = 1; i < grains().n(); ++i)
       AssertThrow(grains().id[i - 1] < grains().id[i], ExcMessage("Grains must be sorted by their ids."));
     implementation->choose_grid(lower, upper, skin);
-    if (const std::string lost = implementation->find_lost(); !lost.empty())
-      throw UserError(lost);
+    implementation->check_positions(0.);
   }
 
 
@@ -326,10 +330,9 @@ namespace alluvium::grains
   }
 
 
-  void GrainStore::check_positions() const
+  void GrainStore::check_positions(const double dt) const
   {
-    if (const std::string lost = implementation->find_lost(); !lost.empty())
-      throw Divergence(lost);
+    implementation->check_positions(dt);
   }
 
 

@@ -6,6 +6,7 @@ import math
 import os
 import re
 import resource
+import signal
 import subprocess
 
 from run import Failed, read_grains
@@ -57,7 +58,7 @@ def judge(program, names, scene, folder):
     code, errors, cpu = call(program, folder, "scene.prm", "--set", "Output/Output folder=output")
     messages = [line[len("alluvium: error: "):] for line in errors.split("\n") if line.startswith("alluvium: error: ")]
     said = " ".join(messages)
-    if cpu >= CPU - 1:
+    if cpu >= CPU or code == -signal.SIGXCPU:
         warnings = [line for line in errors.split("\n") if any(word in line for word in TOLD)]
         if warnings:
             return Verdict("slow", warnings[0], code, cpu)

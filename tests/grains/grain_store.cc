@@ -212,17 +212,20 @@ namespace
     Store store(make_grains(100), 1., 0.);
     auto &x                 = store.grains().position;
     x[1][42]                = -3.;
-    const std::string error = error_of<Divergence>([&] { store.check_positions(); });
+    const std::string error = error_of<UserError>([&] { store.check_positions(0.); });
     EXPECT_TRUE(contains(error, "Grain 42")) << error;
     EXPECT_TRUE(contains(error, "-3) m")) << error;
     x[1][42] = 0.5;
     x[0][17] = std::nan("");
-    EXPECT_TRUE(contains(error_of<Divergence>([&] { store.check_positions(); }), "Grain 17"));
+    EXPECT_TRUE(contains(error_of<UserError>([&] { store.check_positions(0.); }), "Grain 17"));
+    x[0][17]                       = -3.; // farther than its radius in a step
+    store.grains().velocity[0][17] = -1e3;
+    EXPECT_TRUE(contains(error_of<Divergence>([&] { store.check_positions(1.); }), "Grain 17"));
     x[0][17] = 0.1;
-    store.check_positions();
+    store.check_positions(1.);
     store.let_leave(true);
     x[0][17] = 7.;
-    store.check_positions();
+    store.check_positions(1.);
     EXPECT_EQ(store.particles().n_global_particles(), 100u);
   }
 

@@ -15,7 +15,7 @@ The search has had findings. Each is a test now, in `ctest -R failures.mended` w
 - More than half of the energy that a fluid exchanged came from nowhere in its balance, without a word (coarse cells in very viscous fluids). There is a warning.
 - A step that stopped a grain was taken for rest: its forces, 1.14 of the weight, stood in the table as long as nothing moved (scene 181; unit test `Rest`).
 - Soft spheres overlapped by 5 % of a diameter without a word. Above a fifth of `Divergence/Largest penetration` there is a warning (scene 104).
-- A grain that left the domain through a wall was called the user's mistake. It is a divergence (scene 170).
+- A grain that jumped out of the domain was called the user's mistake. It is a divergence (scene 170).
 - The last steps were in doubt, and the checkpoint was that of an earlier one, without a warning (scene 287).
 - A fluid without a solution, since the void fraction was 0 inside grains, ended with exit code 2. It is a divergence (scene 142).
 - Balances of forces and fluxes were measured where all of them were round-off (scenes 180, 196, 396).

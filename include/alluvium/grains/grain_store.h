@@ -50,9 +50,12 @@ namespace alluvium::grains
     /** Whether grains may be outside the grid: their particles wait in its nearest cell until they are taken out. */
     void let_leave(bool yes);
 
-    /** In a run: throws a Divergence that names grain and position, on all ranks, if that is not finite or outside the
-     * grid. */
-    void check_positions() const;
+    /**
+     * After a step of @p dt [s]: throws, on all ranks, if a position is not finite or outside the grid, and names it and
+     * the grain. A UserError where a grain has drifted out, as no wall kept it; a Divergence where it has come farther
+     * than its radius in the step.
+     */
+    void check_positions(double dt) const;
 
     /** The particles, up to date, with the columns but for the position as properties. Collective. */
     const dealii::Particles::ParticleHandler<2, 2> &particles();
