@@ -132,6 +132,8 @@ def index(studies, results_of, folder):
         out += [LINE_BEFORE, ""] + table + [""] if table else []
         failed = sum(not r.done for r in results)
         out += ["%d points%s, %s of CPU time." % (len(results.all), ", %d of them failed" % failed if failed else "", cpu_words(results)), ""]
+    out += ["### Reports", "", "Tables with more text than a study has, each with the day and the command of its measurement.", ""]
+    out += ["- [%s](reports/%s): %s" % (title, os.path.basename(name), ", ".join("`%s`" % c for c in commands)) for title, name, commands in reports(os.path.join(folder, "reports"))] + [""]
     name = os.path.join(folder, "README.md")
     with open(name) as file:
         text = file.read()
@@ -141,12 +143,14 @@ def index(studies, results_of, folder):
 
 
 def reports(folder):
-    """[(title, file)] of the dated measurements in doc/reports."""
+    """[(title, file, commands that measured what it says)] of the reports: tables with more text than a study has."""
     found = []
-    for name in sorted(os.listdir(folder)):
+    for name in sorted(os.listdir(folder)) if os.path.isdir(folder) else []:
         if name.endswith(".md"):
             with open(os.path.join(folder, name)) as file:
-                found.append((file.readline().lstrip("# ").strip(), os.path.join(folder, name)))
+                text = file.read()
+            commands = re.findall(r"`((?:contrib/(?!environment)|ctest |build/tests/)[^`]*)`", text)
+            found.append((text.split("\n")[0].replace("# Report: ", "").strip(), os.path.join(folder, name), list(dict.fromkeys(commands))))
     return found
 
 

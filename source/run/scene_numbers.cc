@@ -73,7 +73,7 @@ namespace alluvium::run
 
     void find_costs(const Model &m, SceneNumbers &s)
     {
-      // measured on one core, see doc/reports/fluid-cost.md; steps in which little moves take less
+      // measured on one core, see doc/lab/reports/fluid-cost.md; steps in which little moves take less
       constexpr double program = 2e8, byte_of_grain = 2e3, byte_of_unknown = 1.5e3, byte_of_piece = 300.;
       constexpr double time_of_grain = 4e-6, time_of_unknown = 1.2e-6, time_of_piece = 3e-7, solves = 2.;
       const double     n_ranks = Utilities::MPI::n_mpi_processes(m.communicator), n_grains = m.grains.n();

@@ -8,7 +8,7 @@
 
 using bed::d, bed::rho, bed::eta, bed::Law;
 
-// The table of doc/reports/drag.md: grains of 0.22 mm and 2630 kg/m^3 in water at a void fraction of 0.48.
+// The table of doc/lab/reports/drag.md: grains of 0.22 mm and 2630 kg/m^3 in water at a void fraction of 0.48.
 TEST(DragLawsTable, Table)
 {
   bed::grains::GrainArrays grains;

@@ -1,4 +1,4 @@
-// Tables of doc/reports/drag.md: what each treatment of low void fractions gives, from cells far coarser than a grain
+// Tables of doc/lab/reports/drag.md: what each treatment of low void fractions gives, from cells far coarser than a grain
 // to far finer.
 #include "../coupling/bed.h"
 

@@ -1,4 +1,4 @@
-// Tables of doc/reports/fixed-bed.md: flux through fixed random beds over Darcy's, from cells far coarser than a grain
+// Tables of doc/lab/reports/fixed-bed.md: flux through fixed random beds over Darcy's, from cells far coarser than a grain
 // to far finer.
 #include "../coupling/bed.h"
 

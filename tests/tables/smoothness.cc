@@ -1,4 +1,4 @@
-// Tables of doc/reports/smoothness.md: the force on a disc that is dragged across cells.
+// Tables of doc/lab/reports/smoothness.md: the force on a disc that is dragged across cells.
 #include "../coupling/dragged_grain.h"
 
 #include <gtest/gtest.h>

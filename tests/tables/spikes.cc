@@ -1,4 +1,4 @@
-// Table and series of doc/reports/smoothness.md: the pressure when grains cross cell faces.
+// Table and series of doc/lab/reports/smoothness.md: the pressure when grains cross cell faces.
 #include "../coupling/pressure_ranges.h"
 
 #include <gtest/gtest.h>

@@ -11,7 +11,7 @@ and the program stands the drag law, an exact side: without net flux gamma w = e
 **The fronts.** Kynch (Trans. Faraday Soc. 48, 1952, 166): a suspension whose speed is a function of its packing alone settles by shocks and fans, here solved with the drag law's speed and the deposit's own packing.
 
 **What cannot be compared.** Discs in a plane pack to 0.8, spheres to 0.6: above 0.4 the same packing is not the same suspension. The law is that of spheres (`sphere`); there is no measured law for discs that sink along
-the plane in which they are cut. Discs at random places drag their water along in crowds, and sink up to 14 % faster ([report](../../reports/settling.md)); in two dimensions that is stronger than
+the plane in which they are cut. Discs at random places drag their water along in crowds, and sink up to 14 % faster ([report](../reports/settling.md)); in two dimensions that is stronger than
 in three.
 """
 import math

@@ -4,7 +4,7 @@
 has two faces, at which the void fraction jumps, and a random inside. Swept: cells, even and finer at the faces; how a grain is spread
 (filter); how its pieces are integrated (rule); when the linear solver stops. Error: of the flux, over that of the reference: even cells
 of 0.25 d and the smooth filter of 2.5 d, which is as wide as the default's even one of 2 d and whose flux has a limit
-([report](../../reports/fixed-bed.md): an even disc has an edge, and the finer the mesh the more that costs).
+([report](../reports/fixed-bed.md): an even disc has an edge, and the finer the mesh the more that costs).
 """
 from laboratory.meshes import at_faces, cells
 from laboratory.study import Chart, Point
