@@ -297,19 +297,27 @@ class Runner:
             raise Mistake("--read: %s is no run's folder of output: it has no summary.json" % folder)
         if not run.has_finished:
             raise Mistake("--read: the run in %s has not finished" % folder)
-        for name, value in point.settings.items():
-            try:
-                has = run.parameter(name)
-            except (OSError, KeyError):
-                raise Mistake("--read: parameters.prm in %s does not have '%s'" % (folder, name)) from None
-            if "{" not in sweeps._text(value) and plain(has) != plain(sweeps._text(value)):
-                raise Mistake("--read: the run in %s has '%s = %s', the point '%s' has %s" % (folder, name, has, point.name, sweeps._text(value)))
+        self.check_parameters(point, folder)
         values, curves = self.measured(run, point)
         self.keep(folder, point)
         cpu_s = point.ranks * sum(part["cpu_s"] for name, part in run.summary["timing"].items() if ": " not in name)
         with open(os.path.join(folder, "log.txt")) as file:
             version = re.search(r"alluvium \S+ \(.*?\)", file.readline())
         return Result(point, "done", 0, "", cpu_s, values, version[0] if version else "", self.key(point), curves=curves)
+
+    def check_parameters(self, point, folder):
+        """A run that is read must have the point's parameters, but for what it writes and where its files are."""
+        with open(os.path.join(folder, "parameters.prm")) as file:
+            has = parameters(file)
+        words = [word for name, value in point.settings.items() if "{" not in sweeps._text(value) for word in ("--set", "%s=%s" % (name, sweeps._text(value)))]
+        asked = subprocess.run([self.alluvium, "--print-parameters", os.path.join(self.study.folder, point.scene), *words], capture_output=True, text=True, env=sweeps.environment())
+        if asked.returncode:
+            raise Mistake("--read: %s" % asked.stderr.strip())
+        filled = {name for name, value in point.settings.items() if "{" in sweeps._text(value)}
+        for name, value in parameters(asked.stdout.splitlines()).items():
+            if name.startswith("Output/") or name.endswith("Cache folder") or name in filled or name not in has or plain(has[name]) == plain(value):
+                continue
+            raise Mistake("--read: the run in %s has '%s = %s', the point '%s' has '%s'" % (folder, name, has[name], point.name, value))
 
     def call(self, command, printed, folder):
         """Exit code (negative: a signal's) and CPU time, user and system, of a command, and whether it was given up."""
@@ -344,6 +352,21 @@ class Runner:
         for path in (self.scratch, self.build, ROOT):
             reason = reason.replace(path + "/", "")
         return textwrap.shorten(str(reason), 400, placeholder=" ...")
+
+
+def parameters(lines):
+    """{'Section/Name': value} of the lines of a parameter file."""
+    found, section = {}, []
+    for line in lines:
+        words = line.split("#")[0].strip()
+        if words.startswith("subsection "):
+            section.append(words[11:].strip())
+        elif words == "end":
+            section.pop()
+        elif words.startswith("set ") and "=" in words:
+            name, value = words[4:].split("=", 1)
+            found["/".join(section + [name.strip()])] = value.strip()
+    return found
 
 
 def plain(text):
