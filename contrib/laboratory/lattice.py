@@ -2,7 +2,7 @@
 
 import math
 
-from .study import Failed
+from .study import DIVERGED, Failed
 
 # of a disc [m], of water; scene: doc/lab/time-schemes/suspension.prm
 d, rho, eta = 5e-5, 1000.0, 1e-3
@@ -57,7 +57,7 @@ def largest(r, series):
 
 def grown(point):
     """Growth of a point; of a run that has diverged before there was one to measure, infinite."""
-    if "growth" not in point.values and point.exit_code != 3:
+    if "growth" not in point.values and point.exit_code != DIVERGED:
         raise Failed("%s failed" % point.point.name)
     return point.values.get("growth", math.inf)
 

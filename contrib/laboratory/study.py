@@ -13,6 +13,9 @@ from typing import Any, Callable, Optional
 NOT_INSTALLED = "is not installed"  # what a program says that a point wants and that is not there: no failure of the point
 
 
+DIVERGED = 3  # exit code
+
+
 @dataclasses.dataclass
 class Point:
     """One run: a scene with settings {'Section/Name': value}, or a command.
@@ -119,6 +122,7 @@ class Results:
         """`floor`: the reference's own error, or {name: that}; what is below it is equally good. `names`: (series, label) of all points there can be."""
         self.all, self._floor, self.names = list(results), floor, names
         self.by_name = {(r.point.series, r.point.label): r for r in self.all}
+        self.asked = set()  # whether these have failed
 
     def __iter__(self):
         return iter(self.all)
@@ -154,6 +158,7 @@ class Results:
         found = self.get(series, label)
         if NOT_INSTALLED in found.reason:
             raise Missing("%s, %s: %s" % (series, label, found.reason))
+        self.asked.add((series, label))
         return 0 if found.done else 1
 
     def value(self, series, label, name):
@@ -172,6 +177,10 @@ class Results:
             lost = reference is not None and not reference.done and NOT_INSTALLED not in reference.reason
             raise (Failed if lost else Missing)("%s, %s has no error of '%s'%s" % (series, label, name, ": the reference failed" if lost else ", or the reference is missing"))
         return errors[name]
+
+    def unexpected(self):
+        """Those that failed otherwise than by divergence, which is a result, and of which no claim has asked whether they failed."""
+        return [r for r in self.all if not r.done and r.exit_code != DIVERGED and NOT_INSTALLED not in r.reason and (r.point.series, r.point.label) not in self.asked]
 
     @property
     def default(self):
