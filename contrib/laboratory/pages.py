@@ -108,7 +108,12 @@ def results_table(study, results):
     return out
 
 
-def write_page(study, results, claims, folder, alluvium, is_drawn=True):
+def not_run(study, results, quick):
+    """Points that there is no result of."""
+    return [p for p in study.points(quick) if (p.series, p.label) not in results.by_name]
+
+
+def write_page(study, results, claims, folder, alluvium, is_drawn=True, quick=False):
     """README.md of a study; `is_drawn`: there is a picture of it."""
     failed = [r for r in results if not r.done]
     versions = sorted({r.version for r in results})
@@ -124,6 +129,10 @@ def write_page(study, results, claims, folder, alluvium, is_drawn=True):
     out += ["## Failed", ""]
     said = "Points whose run has failed%s, and what the program said:" % ("; what was measured of it before is shown" if study.get("measure_failed") else "")
     out += ([said, "", "| point | exit code | why |", "|---|---|---|"] + ["| %s | %d | %s |" % (r.point.name, r.exit_code, textwrap.shorten(r.reason.replace("|", "/"), 200, placeholder=" ...")) for r in failed] if failed else ["No point failed."]) + [""]
+    missing = not_run(study, results, quick)
+    if missing:
+        some = "; ".join(p.name for p in missing[:5]) + ("; ..." if len(missing) > 5 else ".")
+        out += ["Not run yet: %d of %d points%s: %s" % (len(missing), len(study.points(quick)), ", which `--heavy` runs" if all(p.heavy for p in missing) else "", some), ""]
     if study.chart.kind != "map":
         out += ["## All points", "", "CPU time, errors and what was measured, of all that ran:", ""] + results_table(study, results) + [""]
     out += ["## How to repeat it", "", "    %s              # %s of CPU time; with --quick less" % (commands(study), cpu_words(results)),
@@ -140,7 +149,7 @@ def cpu_words(results):
     return "%.0f s" % total if total < 100 else "%.0f min" % (total / 60)
 
 
-def index(studies, results_of, folder):
+def index(studies, results_of, folder, quick=False):
     """Renew the list of studies in README.md of doc/lab, between its marks."""
     out = []
     for study in studies:
@@ -154,7 +163,9 @@ def index(studies, results_of, folder):
         table = accuracy_table(study, results)
         out += [LINE_BEFORE, ""] + table + [""] if table else []
         failed = sum(not r.done for r in results)
-        out += ["%d points%s, %s of CPU time." % (len(results.all), ", %d of them failed" % failed if failed else "", cpu_words(results)), ""]
+        missing = len(not_run(study, results, quick))
+        out += ["%d points%s%s, %s of CPU time." % (len(results.all), ", %d of them failed" % failed if failed else "", ", %d more not run yet" % missing if missing else "",
+                                                     cpu_words(results)), ""]
     name = os.path.join(folder, "README.md")
     text = "# Studies\n\n%s\n%s\n" % MARKS
     if os.path.exists(name):

@@ -191,6 +191,7 @@ with tempfile.TemporaryDirectory() as folder:
     write(replace=('{"Time/Time step": 1e-3}', '{"Time/Time step": 1.5e-3}'))
     code, said = lab("falling", "--quick", "--redraw")
     assert code == 0 and "left out, since results.csv has other settings for them: 2 points" in said, said
+    assert "Not run yet: 2 of 5 points: " in text("falling", "README.md"), text("falling", "README.md")
 
     # a mistake in a study is said in a line that names it
     for old, new, why in (("def measure", "def measures", "falling/study.py has no measure(run, point)"),
