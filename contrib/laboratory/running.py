@@ -131,7 +131,8 @@ class Runner:
         points = self.study.points(quick)
         known = {} if again else {row["key"]: row for row in read_rows(self.file) if row["reason"] != INTERRUPTED and NOT_INSTALLED not in row["reason"]}
         curves = read_curves(self.file_of_curves)
-        of_any_version = {(row["series"], row["label"]): row for row in read_rows(self.file)}
+        settings = {(p.series, p.label): self.settings_of(p) for p in points}
+        of_any_version = {(row["series"], row["label"]): row for row in read_rows(self.file) if row["settings"] == settings.get((row["series"], row["label"]))}
         wrong = [label for label in given or {} if label not in [p.label for p in points]]
         if wrong:
             raise Mistake("--read: %s has no point with the label '%s'" % (self.study.name, wrong[0]))
@@ -298,7 +299,7 @@ class Runner:
         if not run.has_finished:
             raise Mistake("--read: the run in %s has not finished" % folder)
         self.check_parameters(point, folder)
-        values, curves = self.measured(run, point)
+        values, curves = self.study.call(self.measured, run, point)
         self.keep(folder, point)
         cpu_s = point.ranks * sum(part["cpu_s"] for name, part in run.summary["timing"].items() if ": " not in name)
         with open(os.path.join(folder, "log.txt")) as file:
@@ -307,7 +308,10 @@ class Runner:
 
     def check_parameters(self, point, folder):
         """A run that is read must have the point's parameters, but for what it writes and where its files are."""
-        with open(os.path.join(folder, "parameters.prm")) as file:
+        name = os.path.join(folder, "parameters.prm")
+        if not os.path.isfile(name):
+            raise Mistake("--read: there is no %s, which says with what parameters it was run" % name)
+        with open(name) as file:
             has = parameters(file)
         words = [word for name, value in point.settings.items() if "{" not in sweeps._text(value) for word in ("--set", "%s=%s" % (name, sweeps._text(value)))]
         asked = subprocess.run([self.alluvium, "--print-parameters", os.path.join(self.study.folder, point.scene), *words], capture_output=True, text=True, env=sweeps.environment())
