@@ -41,6 +41,13 @@ def draw(study, results, folder):
     return {"map": draw_map, "curves": draw_curves, "work-precision": draw_work_precision}[study.chart.kind](study, results, folder)
 
 
+def remove(study, folder):
+    """Pictures of an earlier run, where there is nothing to draw now."""
+    for end in (".svg", ".png"):
+        if os.path.exists(os.path.join(folder, study.name + end)):
+            os.remove(os.path.join(folder, study.name + end))
+
+
 def panels(n, columns, size, legend_height):
     """Figure, n axes of this size in so many columns, and a strip below them for a legend [inches]."""
     rows = math.ceil(n / columns)

@@ -2,6 +2,8 @@
 
 import math
 
+from .study import DIVERGED, Failed
+
 # of a disc [m], of water; scene: doc/lab/time-schemes/suspension.prm
 d, rho, eta = 5e-5, 1000.0, 1e-3
 SAND = 2630.0
@@ -50,9 +52,16 @@ def growth(run):
 
 def largest(r, series):
     """Growth of a series; infinite if a point of it failed."""
-    return max(p.values["growth"] if p.done else math.inf for p in r.some(series, "growth"))
+    return max(p.values["growth"] if p.done else math.inf for p in r.some(series))
+
+
+def grown(point):
+    """Growth of a point; of a run that has diverged before there was one to measure, infinite."""
+    if "growth" not in point.values and point.exit_code != DIVERGED:
+        raise Failed("%s failed" % point.point.name)
+    return point.values.get("growth", math.inf)
 
 
 def disagree(r, series, is_unstable):
     """Points that do not grow where is_unstable(point) says so, or do where it does not."""
-    return sum((p.values["growth"] > 1) != is_unstable(p.point) for p in r.some(series, "growth"))
+    return sum((grown(p) > 1) != is_unstable(p.point) for p in r.some(series))

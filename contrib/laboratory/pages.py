@@ -9,7 +9,7 @@ import subprocess
 import textwrap
 
 from . import ROOT
-from .study import number, percent
+from .study import Mistake, number, percent
 
 TARGETS = (0.1, 0.01, 0.001)
 LINE_BEFORE = "For each error, the cheapest setting found:"
@@ -35,7 +35,18 @@ def libraries(alluvium):
 
 
 def commands(study):
-    return "contrib/lab %s%s" % (study.name, " --heavy" if any(p.heavy for p in study.points(False)) else "")
+    place = os.path.dirname(study.folder)
+    return "contrib/lab %s%s%s" % (study.name, " --heavy" if any(p.heavy for p in study.points(False)) else "", "" if is_ours(study) else " --studies " + place)
+
+
+def is_ours(study):
+    """In doc/lab, whose studies ctest runs."""
+    return os.path.dirname(study.folder) == os.path.join(ROOT, "doc", "lab")
+
+
+def check_of(study):
+    """The command that checks the claims on fewer points."""
+    return "ctest -L chart -R %s" % study.name if is_ours(study) else commands(study) + " --quick --check"
 
 
 def accuracy_table(study, results):
@@ -72,9 +83,17 @@ def shown_error(results, name, result):
 def claims_table(claims):
     out = ["| what is claimed, and checked | measured | |", "|---|---|---|"]
     for claim in claims:
-        verdict = {True: "holds", False: "**does not hold**", None: "not looked at: " + claim.why}[claim.holds]
-        out.append("| %s | %s %s %s | %s |" % (claim.text, number(claim.value), claim.relation, number(claim.bound), verdict))
+        verdict = {True: "holds", False: "**does not hold**" + (": " + claim.why if claim.why else ""), None: "not looked at: " + claim.why}[claim.holds]
+        out.append("| %s | %s %s %s | %s |" % (claim.text, *shown_apart(claim), verdict))
     return out
+
+
+def shown_apart(claim):
+    """(value, relation, bound), with more digits where the two differ in these only."""
+    digits = 3
+    while claim.value is not None and claim.value != claim.bound and number(claim.value, digits) == number(claim.bound, digits) and digits < 12:
+        digits += 1
+    return number(claim.value, digits), claim.relation, number(claim.bound, digits)
 
 
 def results_table(study, results):
@@ -89,24 +108,50 @@ def results_table(study, results):
     return out
 
 
-def write_page(study, results, claims, folder, alluvium):
-    """README.md of a study."""
+def failed_rows(failed):
+    """A row for each point; where more than a few of a series failed with one exit code, a row for all these, with what the first one said."""
+    groups, few = {}, 4
+    for r in failed:
+        groups.setdefault((r.point.series, r.exit_code), []).append(r)
+    out = []
+    for (series, exit_code), those in groups.items():
+        why = lambda r: textwrap.shorten(r.reason.replace("|", "/"), 200, placeholder=" ...")
+        if len(those) <= few:
+            out += ["| %s | %d | %s |" % (r.point.name, exit_code, why(r)) for r in those]
+        else:
+            out.append("| %s, %d points: %s | %d | the first: %s |" % (series, len(those), "; ".join(r.point.label for r in those), exit_code, why(those[0])))
+    return out
+
+
+def not_run(study, results, quick):
+    """Points that there is no result of."""
+    return [p for p in study.points(quick) if (p.series, p.label) not in results.by_name]
+
+
+def write_page(study, results, claims, folder, alluvium, is_drawn=True, quick=False):
+    """README.md of a study; `is_drawn`: there is a picture of it."""
     failed = [r for r in results if not r.done]
     versions = sorted({r.version for r in results})
     out = ["# " + study.title, "", "<!-- written by %s -->" % commands(study), "", study.says(results), "",
-           "[![%s](%s.png)](%s.svg)" % (study.title, study.name, study.name), ""]
+           "[![%s](%s.png)](%s.svg)" % (study.title, study.name, study.name) if is_drawn else "No picture: there is nothing to draw.", ""]
     if study.prose:
         out += [study.prose, ""]
     table = accuracy_table(study, results)
     if table:
         out += ["## What an accuracy costs", "", LINE_BEFORE, ""] + table + [""]
-    out += ["## Checked", "", "What this page claims, and what was measured of it; `ctest -L chart` checks it on fewer points.", ""] + claims_table(claims) + [""]
+    out += ["## Checked", "", "What this page claims, and what was measured of it; `%s` checks it on fewer points." % ("ctest -L chart" if is_ours(study) else check_of(study)), ""]
+    out += claims_table(claims) + [""]
     out += ["## Failed", ""]
-    out += (["Points that gave no result, and what the program said:", "", "| point | exit code | why |", "|---|---|---|"] + ["| %s | %d | %s |" % (r.point.name, r.exit_code, textwrap.shorten(r.reason.replace("|", "/"), 200, placeholder=" ...")) for r in failed] if failed else ["No point failed."]) + [""]
+    said = "Points whose run has failed%s, and what the program said:" % ("; what was measured of it before is shown" if study.get("measure_failed") else "")
+    out += ([said, "", "| point | exit code | why |", "|---|---|---|"] + failed_rows(failed) if failed else ["No point failed."]) + [""]
+    missing = not_run(study, results, quick)
+    if missing:
+        some = "; ".join(p.name for p in missing[:5]) + ("; ..." if len(missing) > 5 else ".")
+        out += ["Not run yet: %d of %d points%s: %s" % (len(missing), len(study.points(quick)), ", which `--heavy` runs" if all(p.heavy for p in missing) else "", some), ""]
     if study.chart.kind != "map":
         out += ["## All points", "", "CPU time, errors and what was measured, of all that ran:", ""] + results_table(study, results) + [""]
     out += ["## How to repeat it", "", "    %s              # %s of CPU time; with --quick less" % (commands(study), cpu_words(results)),
-            "    ctest -L chart -R %s    # its claims, on fewer points" % study.name, "",
+            "    %s    # its claims, on fewer points" % check_of(study), "",
             "Data: [results.csv](results.csv); what is run: [study.py](study.py). %s (%s), on %s, one process a point." % (", ".join(versions), libraries(alluvium), hardware()),
             study.get("cpu_says", CPU_SAYS), ""]
     os.makedirs(folder, exist_ok=True)
@@ -119,7 +164,7 @@ def cpu_words(results):
     return "%.0f s" % total if total < 100 else "%.0f min" % (total / 60)
 
 
-def index(studies, results_of, folder):
+def index(studies, results_of, folder, quick=False):
     """Renew the list of studies in README.md of doc/lab, between its marks."""
     out = []
     for study in studies:
@@ -127,16 +172,24 @@ def index(studies, results_of, folder):
         if not os.path.exists(os.path.join(folder, study.name, "README.md")):
             continue  # not finished yet
         out += ["### [%s](%s/README.md)" % (study.title, study.name), "", study.says(results), "",
-"[![%s](%s/%s.png)](%s/README.md)" % (study.title, study.name, study.name, study.name), ""]
+                "[![%s](%s/%s.png)](%s/README.md)" % (study.title, study.name, study.name, study.name), ""]
+        if not os.path.exists(os.path.join(folder, study.name, study.name + ".png")):
+            out = out[:-2]
         table = accuracy_table(study, results)
         out += [LINE_BEFORE, ""] + table + [""] if table else []
         failed = sum(not r.done for r in results)
-        out += ["%d points%s, %s of CPU time." % (len(results.all), ", %d of them failed" % failed if failed else "", cpu_words(results)), ""]
-    out += ["### Reports", "", "Tables with more text than a study has, each with the day and the command of its measurement.", ""]
-    out += ["- [%s](reports/%s): %s" % (title, os.path.basename(name), ", ".join("`%s`" % c for c in commands)) for title, name, commands in reports(os.path.join(folder, "reports"))] + [""]
+        missing = len(not_run(study, results, quick))
+        out += ["%d points%s%s, %s of CPU time." % (len(results.all), ", %d of them failed" % failed if failed else "", ", %d more not run yet" % missing if missing else "",
+                                                     cpu_words(results)), ""]
+    listed = ["- [%s](reports/%s): %s" % (title, os.path.basename(name), ", ".join("`%s`" % c for c in commands)) for title, name, commands in reports(os.path.join(folder, "reports"))]
+    out += ["### Reports", "", "Tables with more text than a study has, each with the day and the command of its measurement.", "", *listed, ""] if listed else []
     name = os.path.join(folder, "README.md")
-    with open(name) as file:
-        text = file.read()
+    text = "# Studies\n\n%s\n%s\n" % MARKS
+    if os.path.exists(name):
+        with open(name) as file:
+            text = file.read()
+    if any(text.count(mark) != 1 for mark in MARKS):
+        raise Mistake("index: %s has to have the lines '%s' and '%s', once each: the list goes between them" % (name, *MARKS))
     start, rest = text.split(MARKS[0])
     with open(name, "w") as file:
         file.write(start + MARKS[0] + "\n\n" + "\n".join(out) + MARKS[1] + rest.split(MARKS[1])[1])

@@ -21,7 +21,7 @@ import threading
 import time
 
 from . import ROOT
-from .study import NOT_INSTALLED, Result, Results
+from .study import NOT_INSTALLED, Mistake, Result, Results
 from alluvium import Run, sweeps
 
 COLUMNS = ["series", "label", "x", "y", "status", "exit_code", "reason", "cpu_s"]  # then errors and values, then:
@@ -50,6 +50,8 @@ def version_of(alluvium):
 def scene_text(path):
     """A scene with what it includes."""
     text = []
+    if not os.path.isfile(path):
+        raise Mistake("there is no scene %s" % path)
     with open(path) as file:
         for line in file:
             match = re.match(r"\s*include\s+(\S+)", line)
@@ -93,6 +95,10 @@ class Runner:
         what += [inspect.getsource(getattr(self.study.module, name)) for name in ("measure", "curves") if self.study.get(name)]
         return hashlib.sha256(json.dumps(what, default=str).encode()).hexdigest()[:16]
 
+    def settings_of(self, point):
+        """As results.csv has them: those that not all points have."""
+        return "; ".join("%s = %s" % (k, sweeps._text(v)) for k, v in point.settings.items() if k not in self.study.get("always", {}))
+
     def write(self, results):
         """results.csv, whole, at once."""
         self.study.compare(results)
@@ -103,7 +109,7 @@ class Runner:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(COLUMNS + ["error" if name == "error" else "error: " + name for name in errors] + ["value: " + name for name in values] + LAST)
             for r in results:
-                settings = "; ".join("%s = %s" % (k, sweeps._text(v)) for k, v in r.point.settings.items() if k not in self.study.get("always", {}))
+                settings = self.settings_of(r.point)
                 writer.writerow([r.point.series, r.point.label, "" if r.point.x is None else "%.6g" % r.point.x, "" if r.point.y is None else "%.6g" % r.point.y,
                                  r.status, r.exit_code, r.reason, ("%.3f" if r.cpu_s >= 1 else "%.4g") % r.cpu_s] + [("%.4g" % r.errors[n]) if n in r.errors else "" for n in errors]
                                 + [repr(r.values[n]) if n in r.values else "" for n in values] + [settings, r.version, r.key])
@@ -125,7 +131,11 @@ class Runner:
         points = self.study.points(quick)
         known = {} if again else {row["key"]: row for row in read_rows(self.file) if row["reason"] != INTERRUPTED and NOT_INSTALLED not in row["reason"]}
         curves = read_curves(self.file_of_curves)
-        of_any_version = {(row["series"], row["label"]): row for row in read_rows(self.file)}
+        settings = {(p.series, p.label): self.settings_of(p) for p in points}
+        of_any_version = {(row["series"], row["label"]): row for row in read_rows(self.file) if row["settings"] == settings.get((row["series"], row["label"]))}
+        wrong = [label for label in given or {} if label not in [p.label for p in points]]
+        if wrong:
+            raise Mistake("--read: %s has no point with the label '%s'" % (self.study.name, wrong[0]))
         if not heavy:
             points = [p for p in points if not p.heavy or (p.series, p.label) in of_any_version or p.label in (given or {})]
         took = {(row["series"], row["label"]): float(row["cpu_s"]) for row in read_rows(self.file)}  # also of other versions
@@ -160,7 +170,8 @@ class Runner:
                         took[points[i].series, points[i].label] = results[i].cpu_s
                         self.write([results[k] for k in sorted(results)])
                         spent = sum(results[k].cpu_s for k in todo if k in results)
-                        left = (time.monotonic() - start) * sum(map(guess, waiting)) / max(spent, 1e-9)
+                        least = 0.05  # [s] of CPU time that any point takes, also one whose program could not be started
+                        left = (time.monotonic() - start) * (sum(map(guess, waiting)) + least * len(waiting)) / (spent + least * n)
                         self.say("  %d/%d  %s: %s%s" % (n, len(todo), points[i].name, describe(results[i]), "" if n == len(todo) else "; %s left" % duration(left)))
             except BaseException:  # the user's Ctrl-C, too
                 for future in futures:
@@ -172,17 +183,24 @@ class Runner:
         return self.with_taken(found, quick)
 
     def known(self, quick=False):
-        """What results.csv has of the study's points, of whatever version."""
+        """What results.csv has of the study's points, of whatever version; not what has been run with other settings."""
         rows = {(row["series"], row["label"]): row for row in read_rows(self.file)}
         curves = read_curves(self.file_of_curves)
-        found = [from_row(rows[p.series, p.label], p, curves) for p in self.study.points(quick) if (p.series, p.label) in rows]
+        there = [p for p in self.study.points(quick) if (p.series, p.label) in rows]
+        found = [from_row(rows[p.series, p.label], p, curves) for p in there if rows[p.series, p.label]["settings"] == self.settings_of(p)]
+        if len(found) < len(there):
+            self.say("%s: left out, since results.csv has other settings for them: %d points" % (self.study.name, len(there) - len(found)))
         return self.with_taken(found, quick)
 
     def with_taken(self, results, quick):
         """Results, with those that the study takes from others."""
         results = results + list(self.study.get("taken", lambda quick: [])(quick))
+        self.study.mistake = None
         self.study.compare(results)
-        return Results(results, self.study.get("floor", 0.0))
+        self.study.check(results)
+        # what is taken from other studies is not known before it is there
+        names = None if self.study.get("taken") else {(p.series, p.label) for way in (False, True) for p in self.study.points(way)}
+        return Results(results, self.study.get("floor", 0.0), names)
 
     def kill(self):
         with self.lock:
@@ -196,12 +214,12 @@ class Runner:
         shutil.rmtree(folder, ignore_errors=True)
         settings = {"Output/Interval of pictures": 0, "Grains/Deposit: settled bed/Cache folder": os.path.join(folder, "deposits")}
         os.makedirs(folder)
-        exit_code, _ = self.call(sweeps.command(os.path.join(self.study.folder, self.study.get("bed")), settings, os.path.join(folder, "output"), alluvium=self.alluvium),
+        exit_code, _, _ = self.call(sweeps.command(os.path.join(self.study.folder, self.study.get("bed")), settings, os.path.join(folder, "output"), alluvium=self.alluvium),
                                  os.path.join(folder, "printed"), folder)
         found = glob.glob(os.path.join(folder, "deposits", "*.csv"))
         if exit_code or len(found) != 1:
             with open(os.path.join(folder, "printed"), errors="replace") as file:
-                raise RuntimeError("the bed of %s was not made: %s" % (self.study.name, file.read()[-500:]))
+                raise Mistake("the bed of %s was not made: %s" % (self.study.name, file.read()[-500:]))
         return found[0]
 
     def one(self, point):
@@ -230,16 +248,19 @@ class Runner:
             command = sweeps.command(os.path.join(self.study.folder, point.scene), settings, output, point.ranks, self.alluvium)
         printed = os.path.join(folder, "printed")
         try:
-            exit_code, cpu_s = self.call(command, printed, folder)
+            exit_code, cpu_s, given_up = self.call(command, printed, folder)
         except OSError as error:
-            exit_code, cpu_s = 127, 0.0
+            exit_code, cpu_s, given_up = 127, 0.0, False
             with open(printed, "w") as file:
                 file.write(str(error))
+                if isinstance(error, FileNotFoundError) and command[0].startswith(self.build + os.sep):
+                    file.write(": cmake --build %s --target %s makes it" % (self.build, os.path.basename(command[0])))
         with open(printed, errors="replace") as file:
             text = file.read()
-        status, reason, values = ("done", "", {}) if exit_code == 0 else ("failed", self.why(exit_code, output, text), {})
+        finished = exit_code == 0 and not given_up and (bool(point.command) or Run(output).has_finished)
+        status, reason, values = ("done", "", {}) if finished else ("failed", self.why(exit_code, output, text, given_up), {})
         curves = {}
-        if exit_code in (-signal.SIGINT, -signal.SIGTERM) or (not point.command and Run(output).summary.get("ended") == "interrupted"):
+        if not given_up and (exit_code in (-signal.SIGINT, -signal.SIGTERM) or (not point.command and Run(output).summary.get("ended") == "interrupted")):
             status, reason = "failed", INTERRUPTED
         version = self.version
         if status == "done" or self.study.get("measure_failed", False):
@@ -254,7 +275,7 @@ class Runner:
                     status, reason = "failed", "nothing was measured: %s" % ", ".join(bad)
             except Exception as error:
                 if status == "done":
-                    status, reason = "failed", "nothing was measured: %s: %s" % (type(error).__name__, error)
+                    status, reason = "failed", "nothing was measured: %s" % self.study.mistake_of(error)
         values = {name: value for name, value in values.items() if math.isfinite(value)}
         shutil.rmtree(folder, ignore_errors=True)
         return Result(dataclasses.replace(point), status, exit_code, reason, cpu_s, values, version, key, curves=curves)
@@ -262,7 +283,10 @@ class Runner:
     def measured(self, run, point):
         """Values and curves of a run."""
         curves = self.study.get("curves", lambda run, point: {})(run, point)
-        return ({name: float(value) for name, value in self.study.module.measure(run, point).items()},
+        values = self.study.module.measure(run, point)
+        if not isinstance(values, dict) or not values:
+            raise ValueError("measure() has to give {name: number}, got %r" % (values,))
+        return ({name: float(value) for name, value in values.items()},
                 {panel: ([float(x) for x in xs], [float(y) for y in ys]) for panel, (xs, ys) in curves.items()})
 
     def keep(self, folder, point):
@@ -273,25 +297,46 @@ class Runner:
     def read(self, point, folder):
         """The result of a point that somebody has run into this folder."""
         run = Run(folder)
+        if not run.summary:
+            raise Mistake("--read: %s is no run's folder of output: it has no summary.json" % folder)
         if not run.has_finished:
-            raise SystemExit("lab: the run in %s has not finished" % folder)
-        values, curves = self.measured(run, point)
+            raise Mistake("--read: the run in %s has not finished" % folder)
+        self.check_parameters(point, folder)
+        values, curves = self.study.call(self.measured, run, point)
         self.keep(folder, point)
         cpu_s = point.ranks * sum(part["cpu_s"] for name, part in run.summary["timing"].items() if ": " not in name)
         with open(os.path.join(folder, "log.txt")) as file:
             version = re.search(r"alluvium \S+ \(.*?\)", file.readline())
         return Result(point, "done", 0, "", cpu_s, values, version[0] if version else "", self.key(point), curves=curves)
 
+    def check_parameters(self, point, folder):
+        """A run that is read must have the point's parameters, but for what it writes and where its files are."""
+        name = os.path.join(folder, "parameters.prm")
+        if not os.path.isfile(name):
+            raise Mistake("--read: there is no %s, which says with what parameters it was run" % name)
+        with open(name) as file:
+            has = parameters(file)
+        words = [word for name, value in point.settings.items() if "{" not in sweeps._text(value) for word in ("--set", "%s=%s" % (name, sweeps._text(value)))]
+        asked = subprocess.run([self.alluvium, "--print-parameters", os.path.join(self.study.folder, point.scene), *words], capture_output=True, text=True, env=sweeps.environment())
+        if asked.returncode:
+            raise Mistake("--read: %s" % asked.stderr.strip())
+        filled = {name for name, value in point.settings.items() if "{" in sweeps._text(value)}
+        for name, value in parameters(asked.stdout.splitlines()).items():
+            if name.startswith("Output/") or name.endswith("Cache folder") or name in filled or name not in has or plain(has[name]) == plain(value):
+                continue
+            raise Mistake("--read: the run in %s has '%s = %s', the point '%s' has '%s'" % (folder, name, has[name], point.name, value))
+
     def call(self, command, printed, folder):
-        """Exit code (negative: a signal's) and CPU time, user and system, of a command."""
+        """Exit code (negative: a signal's) and CPU time, user and system, of a command, and whether it was given up."""
         with open(printed, "w") as file:
             child = subprocess.Popen(command, stdout=file, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, env=sweeps.environment(), cwd=folder, start_new_session=True)
         with self.lock:
             self.children.add(child)
         # no limit of the system's: a process that has one knows its own CPU time to a tick of the clock only, and programs time their phases by it
-        ended = os.pidfd_open(child.pid)
+        ended, given_up = os.pidfd_open(child.pid), False
         while not select.select([ended], [], [], 1)[0]:
             if cpu_of_group(child.pid) > self.limit:
+                given_up = True
                 child.send_signal(signal.SIGXCPU)
                 select.select([ended], [], [], 5)
                 os.killpg(child.pid, signal.SIGKILL)  # what has not listened, and what it has started
@@ -300,16 +345,45 @@ class Runner:
         with self.lock:
             self.children.discard(child)
         child.returncode = os.waitstatus_to_exitcode(status)
-        return child.returncode, usage.ru_utime + usage.ru_stime
+        return child.returncode, usage.ru_utime + usage.ru_stime, given_up
 
-    def why(self, exit_code, output, text):
+    def why(self, exit_code, output, text, given_up=False):
         """A line: why a run failed."""
-        if exit_code in (-signal.SIGXCPU, -signal.SIGKILL):
+        if given_up:
             return "given up after %g s of CPU time" % self.limit
         reason = Run(output).summary.get("reason") or (text.strip().splitlines() or ["it said nothing"])[-1]
+        if exit_code < 0:
+            reason = "ended by signal %d (%s): %s" % (-exit_code, signal.strsignal(-exit_code), reason)
+        elif exit_code == 0:
+            reason = "exit code 0, but it has not finished: %s" % reason
         for path in (self.scratch, self.build, ROOT):
             reason = reason.replace(path + "/", "")
         return textwrap.shorten(str(reason), 400, placeholder=" ...")
+
+
+def parameters(lines):
+    """{'Section/Name': value} of the lines of a parameter file."""
+    found, section = {}, []
+    for line in lines:
+        words = line.split("#")[0].strip()
+        if words.startswith("subsection "):
+            section.append(words[11:].strip())
+        elif words == "end":
+            section.pop()
+        elif words.startswith("set ") and "=" in words:
+            name, value = words[4:].split("=", 1)
+            found["/".join(section + [name.strip()])] = value.strip()
+    return found
+
+
+def plain(text):
+    """A parameter's value without regard to how its numbers are written."""
+    def number(word):
+        try:
+            return "%.12g" % float(word)
+        except ValueError:
+            return word
+    return " ".join(number(word) for word in re.split(r"[\s,]+", text.strip()))
 
 
 def cpu_of_group(group):

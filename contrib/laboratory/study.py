@@ -6,10 +6,14 @@ import importlib.util
 import math
 import os
 import re
+import traceback
 from typing import Any, Callable, Optional
 
 
 NOT_INSTALLED = "is not installed"  # what a program says that a point wants and that is not there: no failure of the point
+
+
+DIVERGED = 3  # exit code
 
 
 @dataclasses.dataclass
@@ -100,16 +104,25 @@ class Curves:
 
 
 class Missing(Exception):
-    """A point that a claim wants has not been run (in a quick study), or has failed."""
+    """A point that a claim wants has not been run (in a quick study), or what it needs is not installed."""
+
+
+class Failed(Missing):
+    """A point that a claim wants has been run and has failed, or is none of the study's: the claim does not hold."""
+
+
+class Mistake(Exception):
+    """A mistake in a study, or in how the laboratory was called: what is wrong, in one line."""
 
 
 class Results:
     """All results of a study; what claims and texts look numbers up in."""
 
-    def __init__(self, results, floor=0.0):
-        """`floor`: the reference's own error, or {name: that}; what is below it is equally good."""
-        self.all, self._floor = list(results), floor
+    def __init__(self, results, floor=0.0, names=None):
+        """`floor`: the reference's own error, or {name: that}; what is below it is equally good. `names`: (series, label) of all points there can be."""
+        self.all, self._floor, self.names = list(results), floor, names
         self.by_name = {(r.point.series, r.point.label): r for r in self.all}
+        self.asked = set()  # whether these have failed
 
     def __iter__(self):
         return iter(self.all)
@@ -127,13 +140,17 @@ class Results:
     def get(self, series, label):
         found = self.by_name.get((series, label))
         if found is None:
+            if self.names is not None and (series, label) not in self.names:
+                raise Failed("the study has no point '%s, %s'" % (series, label))
             raise Missing("%s, %s was not run" % (series, label))
         return found
 
     def done(self, series, label):
         found = self.get(series, label)
         if not found.done:
-            raise Missing("%s, %s %s" % (series, label, NOT_INSTALLED if NOT_INSTALLED in found.reason else "failed"))
+            if NOT_INSTALLED in found.reason:
+                raise Missing("%s, %s %s" % (series, label, NOT_INSTALLED))
+            raise Failed("%s, %s failed" % (series, label))
         return found
 
     def failed(self, series, label):
@@ -141,10 +158,14 @@ class Results:
         found = self.get(series, label)
         if NOT_INSTALLED in found.reason:
             raise Missing("%s, %s: %s" % (series, label, found.reason))
+        self.asked.add((series, label))
         return 0 if found.done else 1
 
     def value(self, series, label, name):
-        return self.done(series, label).values[name]
+        values = self.done(series, label).values
+        if name not in values:
+            raise Failed("%s, %s has no value '%s'" % (series, label, name))
+        return values[name]
 
     def cpu(self, series, label):
         return self.done(series, label).cpu_s
@@ -152,8 +173,14 @@ class Results:
     def error(self, series, label, name="error"):
         errors = self.done(series, label).errors
         if name not in errors:
-            raise Missing("%s, %s has no error of '%s', or the reference is missing" % (series, label, name))
+            reference = next((r for r in self.all if r.point.reference), None)
+            lost = reference is not None and not reference.done and NOT_INSTALLED not in reference.reason
+            raise (Failed if lost else Missing)("%s, %s has no error of '%s'%s" % (series, label, name, ": the reference failed" if lost else ", or the reference is missing"))
         return errors[name]
+
+    def unexpected(self):
+        """Those that failed otherwise than by divergence, which is a result, and of which no claim has asked whether they failed."""
+        return [r for r in self.all if not r.done and r.exit_code != DIVERGED and NOT_INSTALLED not in r.reason and (r.point.series, r.point.label) not in self.asked]
 
     @property
     def default(self):
@@ -205,8 +232,14 @@ class Study:
         self.name = os.path.basename(self.folder)
         loader = importlib.machinery.SourceFileLoader("study_" + re.sub(r"\W", "_", self.name), os.path.join(self.folder, "study.py"))
         self.module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
-        loader.exec_module(self.module)
+        self.mistake = None  # the first of error(), kept until all results are written
+        self.call(loader.exec_module, self.module)
+        for name, what in (("points", "points(quick)"), ("measure", "measure(run, point)")):
+            if not callable(self.get(name)):
+                raise Mistake("%s/study.py has no %s" % (self.name, what))
         text = (self.module.__doc__ or "").strip()
+        if not text:
+            raise Mistake("%s/study.py has no text at its top, whose first line is the title" % self.name)
         self.title, _, self.prose = (part.strip() for part in text.partition("\n"))
         self.title = self.title.rstrip(".")
         self.chart = self.get("chart", Chart())
@@ -215,15 +248,42 @@ class Study:
     def get(self, name, otherwise=None):
         return getattr(self.module, name, otherwise)
 
+    def call(self, function, *arguments):
+        """What a function of the study gives; what it raises is a Mistake that names the line."""
+        try:
+            return function(*arguments)
+        except (Missing, Mistake):
+            raise
+        except Exception as error:
+            raise self.mistake_of(error) from error
+
+    def mistake_of(self, error, where=""):
+        file = os.path.join(self.folder, "study.py")
+        lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == file]
+        line = error.lineno if isinstance(error, SyntaxError) else lines[-1] if lines else None
+        words = error.msg if isinstance(error, SyntaxError) else error
+        return Mistake("%s/study.py%s%s: %s: %s" % (self.name, ", line %d" % line if line else "", where, type(error).__name__, words))
+
     def points(self, quick):
         """References first: the others are compared with them, and they fill the caches of deposits."""
-        points = list(self.module.points(quick))
+        points = self.call(lambda: list(self.module.points(quick)))
+        for point in points:
+            if not isinstance(point, Point):
+                raise Mistake("%s/study.py: points() has to yield Point(series, label, settings), got %r" % (self.name, point))
+            if not isinstance(point.settings, dict):
+                raise Mistake("%s/study.py: the settings of the point '%s' have to be {'Section/Name': value}, got %r" % (self.name, point.name, point.settings))
         names = [(p.series, p.label) for p in points]
         twice = {name for name in names if names.count(name) > 1}
         if twice:
-            raise ValueError("%s: two points are called %s" % (self.name, sorted(twice)))
+            raise Mistake("%s/study.py: two points are called '%s'" % (self.name, ", ".join(sorted(twice)[0])))
+        if sum(p.reference for p in points) > 1:
+            raise Mistake("%s/study.py: two points are the reference: %s" % (self.name, " and ".join("'%s'" % p.name for p in points if p.reference)))
         for point in points:
             point.scene = point.scene or self.get("scene")
+            if not point.command and not point.scene:
+                raise Mistake("%s/study.py: the point '%s' has no scene, nor has the study" % (self.name, point.name))
+            if not point.command and not os.path.isfile(os.path.join(self.folder, point.scene)):
+                raise Mistake("%s/study.py: the scene of the point '%s', %s, is no file in %s" % (self.name, point.name, point.scene, self.folder))
             point.settings = {**self.get("always", {}), **point.settings}
         return sorted(points, key=lambda p: not p.reference)
 
@@ -238,35 +298,69 @@ class Study:
         for r in results:
             r.errors = {}
             if r.done and (exact is not None or given is not None):
-                found = error(r.values, exact if exact is not None else given)
-                found = found if isinstance(found, dict) else {"error": found}
-                r.errors = {name: float(value) for name, value in found.items() if value is not None and math.isfinite(value)}
+                try:
+                    found = error(r.values, exact if exact is not None else given)
+                    found = found if isinstance(found, dict) else {"error": found}
+                    found = {name: float(value) for name, value in found.items() if value is not None}
+                except Exception as wrong:
+                    self.mistake = self.mistake or self.mistake_of(wrong, ", error() of the point '%s'" % r.point.name)
+                    continue
+                r.errors = {name: value for name, value in found.items() if math.isfinite(value)}
+                if len(r.errors) < len(found):
+                    self.mistake = self.mistake or Mistake("%s/study.py: error() of the point '%s' gives a number that is not finite, %s; where there is no error to give, "
+                                                           "give None" % (self.name, r.point.name, found))
 
     def claims(self, results):
         """What the page claims: a list of Claim."""
         found = []
-        for text, value, relation, bound in self.get("claims", lambda r: [])(results):
+        try:
+            claims = self.call(lambda: list(self.get("claims", lambda r: [])(results)))
+        except Missing as error:
+            raise Mistake("%s/study.py: claims() looks a number up at once (%s); a claim's number has to be a function: put `lambda:` before it" % (self.name, error)) from error
+        for claim in claims:
+            if not isinstance(claim, tuple) or len(claim) != 4 or claim[2] not in RELATIONS:
+                raise Mistake("%s/study.py: claims() has to yield (text, number or function, one of %s, bound), got %r" % (self.name, " ".join(RELATIONS), claim))
+            text, value, relation, bound = claim
             why = ""
             try:
-                value = float(value() if callable(value) else value)
-                holds = RELATIONS[relation](value, bound)
+                value = float(self.call(value) if callable(value) else value)
+                holds = bool(RELATIONS[relation](value, bound))
+            except Failed as error:
+                value, holds, why = None, False, str(error)
             except Missing as error:
                 value, holds, why = None, None, str(error)
             found.append(Claim(text, value, relation, bound, holds, why))
         return found
+
+    def check(self, results):
+        """Raise the Mistake that error() has made, or one of the chart."""
+        if self.mistake:
+            raise self.mistake
+        if self.chart.kind == "map":
+            for r in results:
+                if r.done and r.point.x is not None and self.chart.value not in r.values:
+                    raise Mistake("%s/study.py: the chart shows '%s', which measure() does not give for the point '%s'" % (self.name, self.chart.value, r.point.name))
 
     def says(self, results):
         """The page's two sentences."""
         says = self.get("says", "")
         try:
             return says(results) if callable(says) else says
-        except (Missing, AttributeError, KeyError) as error:
+        except Missing as error:
             return "Not enough has been run to say anything: %s." % error
+        except Exception as error:
+            if all(r.done for r in results) and len(results.all) >= len(self.points(False)):
+                raise self.mistake_of(error, ", says()") from error
+            return "Not enough has been run to say anything: %s: %s." % (type(error).__name__, error)
 
 
 def all_studies(folder):
     """Studies of a folder, in the order that they give themselves."""
-    names = [name for name in os.listdir(folder) if os.path.exists(os.path.join(folder, name, "study.py"))] if os.path.isdir(folder) else []
+    if not os.path.isdir(folder):
+        raise Mistake("there is no folder of studies %s" % folder)
+    names = [name for name in sorted(os.listdir(folder)) if os.path.exists(os.path.join(folder, name, "study.py"))]
+    if not names:
+        raise Mistake("%s holds no study: no folder in it has a study.py" % folder)
     return sorted((Study(os.path.join(folder, name)) for name in names), key=lambda s: (s.order, s.name))
 
 

@@ -229,8 +229,12 @@ namespace alluvium::run
               prescribed += speed * std::hypot(m.coupling.fluid_force()[i][0], m.coupling.fluid_force()[i][1]);
             continue;
           }
-        double dx = g.position[0][i] - x[i], dy = g.position[1][i] - y[i];
+        // through a periodic domain a grain may go farther than half of it in a step: how far, its velocity tells
+        const double way_x = m.time_step * g.velocity[0][i], way_y = m.time_step * g.velocity[1][i];
+        double       dx = g.position[0][i] - x[i] - way_x, dy = g.position[1][i] - y[i] - way_y;
         periodicity.shorten(dx, dy);
+        dx += way_x;
+        dy += way_y;
         const double volume = grains::disc_volume(g.fluid_radius[i]), reduced = g.mass[i] - rho * volume;
         work += reduced * (m.gravity[0] * dx + m.gravity[1] * dy) + volume * (excess[0] * dx + excess[1] * dy);
       }

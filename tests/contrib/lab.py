@@ -46,6 +46,7 @@ def says(r):
 def claims(r):
     yield "it falls", lambda: r.value("fine", "0.1 ms", "sum"), "<", BOUND
     yield "a step that is negative fails", lambda: r.failed("coarse", "bad"), "==", 1
+    yield "and so do two more", lambda: r.failed("coarse", "nothing") + r.failed("coarse", "wrong number"), "==", 2
     yield "only in full", lambda: r.error("coarse", "5 ms"), "<", 1
 '''
 
@@ -117,9 +118,11 @@ def lab(*arguments):
     return result.returncode, result.stdout
 
 
-def write(chart="Chart()", bound="2"):
+def write(chart="Chart()", bound="2", replace=None):
+    study = STUDY.replace("CHART", chart).replace("BOUND", bound)
+    assert not replace or replace[0] in study, replace
     with open(os.path.join(studies, "falling", "study.py"), "w") as file:
-        file.write(STUDY.replace("CHART", chart).replace("BOUND", bound))
+        file.write(study.replace(*replace) if replace else study)
 
 
 def text(*path):
@@ -173,6 +176,52 @@ with tempfile.TemporaryDirectory() as folder:
     code, said = lab("falling", "--quick", "--check")
     assert code == 1 and "DOES NOT HOLD: it falls" in said and "0 to run" in said, said
     assert "**does not hold**" in text("falling", "README.md") and "theory" in text("falling", "falling.svg")
+
+    # a claim of a point that failed, or that is none, does not hold; a reference that fails leaves no picture of an earlier run
+    for old, new, why in (('lambda: r.value("fine", "0.1 ms", "sum")', 'lambda: r.error("coarse", "bad")', "coarse, bad failed"),
+                          ('r.failed("coarse", "nothing") + r.failed("coarse", "wrong number"), "==", 2', '2, "==", 2', "FAILED, and no claim expects it: coarse, nothing (exit code 7)"),
+                          ('lambda: r.value("fine", "0.1 ms", "sum")', 'lambda: r.error("coarse", "worse")', "the study has no point 'coarse, worse'"),
+                          ('{"Time/Time step": 1e-4}, x=1, y=1, reference=True', '{"Time/Time step": -1}, x=1, y=1, reference=True', "fine, 0.1 ms failed")):
+        write(replace=(old, new))
+        code, said = lab("falling", "--quick", "--check")
+        assert code == 1 and why in said and "points failed" in said, said
+    assert not os.path.exists(os.path.join(target, "falling", "falling.png")) and "No picture" in text("falling", "README.md")
+
+    # what has other settings now is not drawn as if it had not
+    write(replace=('{"Time/Time step": 1e-3}', '{"Time/Time step": 1.5e-3}'))
+    code, said = lab("falling", "--quick", "--redraw")
+    assert code == 0 and "left out, since results.csv has other settings for them: 2 points" in said, said
+    assert "Not run yet: 2 of 5 points: " in text("falling", "README.md"), text("falling", "README.md")
+
+    # a mistake in a study is said in a line that names it
+    for old, new, why in (("def measure", "def measures", "falling/study.py has no measure(run, point)"),
+                          ('"scene.prm"', '"scenes.prm"', "the scene of the point 'fine, 0.1 ms', scenes.prm, is no file in"),
+                          ('"1 ms", {', '"bad", {', "two points are called 'coarse, bad'"),
+                          ('x=2, y=1, default', 'x=2, y=1, reference=True, default', "two points are the reference: 'fine, 0.1 ms' and 'coarse, 1 ms'"),
+                          ("def error(values, reference):", "def error(values, reference)", "falling/study.py, line 27: SyntaxError: expected ':'"),
+                          ('values["sum"]', 'values["sun"]', "falling/study.py, line 28, error() of the point 'fine, 0.1 ms': KeyError: 'sun'"),
+                          ('return abs(values["sum"] / reference["sum"] - 1)', 'return float("nan")', "gives a number that is not finite"),
+                          ('"<", 2', '"=<", 2', "one of < <= > >= ==, bound), got ('it falls'"),
+                          ('lambda: r.error("coarse", "5 ms")', 'r.error("coarse", "5 ms")', "looks a number up at once (coarse, 5 ms was not run)"),
+                          ("chart = Chart()", 'chart = Map(value="sun")', "the chart shows 'sun', which measure() does not give for the point 'fine, 0.1 ms'")):
+        write(replace=(old, new))
+        code, said = lab("falling", "--quick")
+        assert code == 1 and why in said and "Traceback" not in said, said
+    write()
+    for arguments, why in ((["falling", "--read", "1 ms"], "--read: expected LABEL=FOLDER, got '1 ms'"), (["falling", "--read", "2 ms=" + folder], "falling has no point with the label '2 ms'"),
+                           (["falling", "--read", "1 ms=" + folder], "is no run's folder of output"), (["all", "index"], "'all' goes without other names"),
+                           (["all", "--check", "--studies", os.path.join(folder, "none")], "there is no folder of studies"),
+                           (["all", "--check", "--studies", folder + "/scratch"], "holds no study"), (["falling", "--redraw", "--to", os.path.join(folder, "empty")], "nothing of it is known")):
+        code, said = lab(*arguments)
+        assert code == 1 and why in said and "Traceback" not in said, said
+
+    # a run that is read must be the point's
+    for step, label, right in (("1e-3", "1 ms", True), ("1e-3", "5 ms", False)):
+        output = os.path.join(folder, "run-" + step)
+        subprocess.run([os.path.join(build, "alluvium"), os.path.join(studies, "falling", "scene.prm"), "--set", "Output/Output folder=" + output, "--set", "Time/Time step=" + step,
+                        "--set", "Output/Interval of statistics=0.01", "--set", "Output/Overwrite output folder=true"], check=True, stdout=subprocess.DEVNULL)
+        code, said = lab("falling", "--read", "%s=%s" % (label, output))
+        assert (code == 0) == right and ("has 'Time/Time step = 1e-3', the point 'coarse, 5 ms' has '0.005'" in said) != right, said
 
     # other programs: the same grains, their own time, their names; what is not installed is no failure of a claim, and is tried again
     os.makedirs(os.path.join(studies, "compared"))

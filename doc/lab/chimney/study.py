@@ -133,6 +133,6 @@ def claims(r):
 def says(r):
     narrow, wide = (over_height(r, slot, "chimney at q/(pi u_mf H)") for slot in SLOTS)
     early, broad = (over_height(r, slot, "cavity at q/(pi u_mf H)") for slot in SLOTS)
-    return ("The three regimes come in the order that experiments and other simulations report. Above a slot of 4 d a cavity opens at %s of pi u_mf H and becomes a chimney at %s, for beds of %s d; above one of 16 d the cavity comes at %s and the chimney at %s: together where the slot is wider than the bed is high, which is lifted as a whole, as is reported of wide slots. "
+    return ("The three regimes come in the order that experiments and other simulations report. Above a slot of 4 d a cavity opens at %s of pi u_mf H and becomes a chimney at %s, for beds of %s d; above one of 16 d the cavity comes at %s and the chimney at %s: together where the slot is wider than the bed is high: what lies above it is lifted as a whole, as is reported of wide slots. "
             "The estimate pi u_mf H is right within a quarter for all chimneys, and for each slot the flux grows with the bed's height (4 d: to the power %.2f)."
             % (", ".join("%.2f" % v for v in early[1]), ", ".join("%.2f" % v for v in narrow[1]), ", ".join("%g" % h for h in narrow[0]), ", ".join("%.2f" % v for v in broad[1]), ", ".join("%.2f" % v for v in wide[1]), slope(r)))

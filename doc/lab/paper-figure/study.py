@@ -5,8 +5,8 @@ diameter and the head over the bed. Here are the same two curves for 2,000 discs
 the faces, as in the paper, and with cells that follow them. The full size, 138,389 discs, is below: it takes tens of minutes on two ranks, and is run with `--heavy` only.
 
 The paper reads 0.69 s, 0.72 s and 22 cm off its full size, and 19 cm off the experiment. What of that is exact: the bed weighs as one of discs packed phi_m, so it is carried at
-the head (s phi_m - phi_b) L, a closed form (errors of the onset are against it). What is not: the detector. A grain has to move by a diameter before it counts,
-and meanwhile the pressure rises. [How much](../ramp-and-lag/README.md) follows from the ramp; [walls](../width-and-walls/README.md) hold narrow beds longer.
+the head (s phi_m - phi_b) L, a closed form (errors of the onset are against it): s is the grains' density over the water's, L the bed's height, phi_m and phi_b the packing by mass and the one that
+the water sees ([theory](../../theory/equations.md)). What is not: the detector. A grain has to move by a diameter before it counts (the first movement is that of 5 % of the mass, the heave that of 95 %), and meanwhile the pressure rises. [How much](../ramp-and-lag/README.md) follows from the ramp; [walls](../width-and-walls/README.md) hold narrow beds longer.
 So of the 1.8 cm between onset and heave at full size the formula for a rigid bed explains 1.4 cm of imposed head; water that has to come in below the bed, and walls, the rest.
 
 What stays open: the paper prints neither the height of its bed nor of its box. 0.13 m in 0.3 m of water are ours, with 22 cm in mind. In a box of 0.3 m the paper's 0.69 s would be 20.7 cm, less than this bed's
@@ -98,7 +98,9 @@ def keep(folder, point, target):
 
 
 def error(values, reference):
-    return {"the onset": abs(values["onset over exact"] - 1), "the head at heave": abs(values["head at total heave [m]"] / reference["head at total heave [m]"] - 1)}
+    same_bed = abs(values["exact head [m]"] / reference["exact head [m]"] - 1) < 0.05  # not that of the full size
+    return {"the onset": abs(values["onset over exact"] - 1),
+            "the head at heave": abs(values["head at total heave [m]"] / reference["head at total heave [m]"] - 1) if same_bed else None}
 
 
 SCALED = ("refined at the start", "cells follow the faces")

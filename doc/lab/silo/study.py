@@ -127,7 +127,7 @@ def added(r):
 def says(r):
     values = lambda friction, name: [x.values[name] for x in r.some("wall friction %g" % friction, name)]
     mean = lambda numbers: sum(numbers) / len(numbers)
-    return ("The floor's share follows Janssen's law within %.0f %% with K and friction as measured, and within %.0f %% with one product of K and friction for all heights, though K grows with depth (%.2f to %.2f). "
-            "Of a wall friction of 0.2 all is used (%.2f), of 0.4 only %.2f: discs roll down such a wall instead of slipping, so that twice the friction takes not twice the load. From four widths to eight the floor gets %.0f %% of what is added. As deposited, before the floor sinks, the share is anything between %.2f and %.2f of that of a sinking floor."
-            % (100 * off(r, "Janssen, K and friction as measured"), 100 * off(r), min(values(0.2, "K")), max(values(0.4, "K")), *(mean(values(f, "friction used")) for f in (0.2, 0.4)),
+    return ("The floor's share follows Janssen's law within %.0f %% with K and friction as measured, and within %.0f %% with one product of K and friction for all heights, though K grows with the height of the fill (%.2f to %.2f). "
+            "Of a wall friction of 0.2 all is used (%.2f), of 0.4 only %.2f: discs roll down such a wall instead of slipping, so that twice the friction takes not twice the load. From four widths to eight the floor gets %.0f %% of what is added (wall friction 0.4). As deposited, before the floor sinks, the share is anything between %.2f and %.2f of that of a sinking floor."
+            % (*(math.ceil(100 * x) for x in (off(r, "Janssen, K and friction as measured"), off(r))), min(values(0.2, "K")), max(values(0.4, "K")), *(mean(values(f, "friction used")) for f in (0.2, 0.4)),
                100 * added(r), *(pick(x.values["at rest"] / x.values["floor / weight"] for x in r if x.done) for pick in (min, max))))

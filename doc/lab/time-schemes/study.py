@@ -5,9 +5,7 @@ point is 30 steps of one length: growth is the mean factor from a change of the 
 largest. Swept: the step over the relaxation time tau_p of a disc, and the void fraction. The line is 2 eps^2 (1 - r), with
 r = (1 - eps) rho / (eps rho_p): theory for schemes whose continuity equation sees the discs' velocity of t^n.
 """
-import math
-
-from laboratory.lattice import bound_of, files, growth, largest, settings
+from laboratory.lattice import bound_of, files, grown, growth, largest, settings
 from laboratory.study import Map, Point
 
 order = 10
@@ -45,20 +43,20 @@ def measure(run, point):
 
 def wrong(r, series):
     """Points, away from the line by more than a tenth, on which growth and theory disagree."""
-    return sum((p.values["growth"] > 1) != (p.point.x > bound_of(p.point.y)) for p in r.some(series, "growth")
+    return sum((grown(p) > 1) != (p.point.x > bound_of(p.point.y)) for p in r.some(series)
                if not 0.9 < p.point.x / max(bound_of(p.point.y), 1e-9) < 1.1)
 
 
 def claims(r):
     yield "'implicit drag' is unstable beyond the line, and nowhere else", lambda: wrong(r, "implicit drag"), "==", 0
-    yield "'explicit' is unstable from 3 tau_p on", lambda: min(p.values.get("growth", math.inf) for p in r.some("explicit") if p.point.x >= 3), ">", 1.0
+    yield "'explicit' is unstable from 3 tau_p on", lambda: min(grown(p) for p in r.some("explicit") if p.point.x >= 3), ">", 1.0
     for name in ("semi-implicit per grain", "semi-implicit per piece", "iterated"):
         yield "'%s' is stable everywhere" % name, lambda name=name: largest(r, name), "<", 1.0
 
 
 def beyond(r, series):
     """Points beyond the line that are stable all the same."""
-    return sum(p.values.get("growth", math.inf) < 1 for p in r.of(series) if p.point.x > 1.1 * bound_of(p.point.y))
+    return sum(grown(p) < 1 for p in r.of(series) if p.point.x > 1.1 * bound_of(p.point.y))
 
 
 def says(r):
