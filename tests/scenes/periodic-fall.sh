@@ -25,7 +25,7 @@ subsection Grains
 end
 subsection Output
   set Interval of statistics = 0.1
-  set Observers              = motion, energy
+  set Observers              = motion, bed
 end
 SCENE
 must_run 1 fall.prm
