@@ -38,7 +38,7 @@ def noise(name, labels, error):
 # what is not known of the references: by how much the flux's may be off, what these studies say, and what another contact solver or a
 # tighter tolerance changes
 floor = {"flux": 5e-4, "heave": noise("fluidised-bed", ["Gauss-Seidel", "contacts 1e-05"], "the heave"), "fall": 1e-3,
-         "runout": noise("dry-column", ["0.2 ms, contacts 1e-6", "Gauss-Seidel"], "the spreading"), "head": 7.5e-3, "grains moved": 0.016}
+         "runout": noise("dry-column", ["0.2 ms, contacts 1e-6", "Gauss-Seidel"], "the spreading"), "head": 7.5e-3, "grains moved": 0.022}  # the latter two: floors of the study jet-through-bed
 
 
 def limit_of(values):

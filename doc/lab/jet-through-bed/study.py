@@ -11,7 +11,7 @@ order = 6
 scene = "jet.prm"
 limit = 400
 chart = Chart()
-floor = {"the head": 0.0075, "the grains moved": 0.016}  # what even cells of 1 d in chosen steps differ from the reference by
+floor = {"the head": 0.0075, "the grains moved": 0.022}  # what even cells of 1 d in chosen steps differ from the reference by, the most of two versions of the program
 
 
 def cells(h):
