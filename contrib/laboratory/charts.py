@@ -73,7 +73,7 @@ def draw_work_precision(study, results, folder):
     figure, axes, place = panels(len(names), columns, (12, 7.6) if columns == 1 else (7.4, 6.4), 0.34 * math.ceil((len(series) + 4) / 2) + 0.1)
     handles = {}
     for axis, name in zip(axes, names):
-        work_precision_panel(axis, results, name, looks, handles)
+        work_precision_panel(axis, results, name, looks, handles, study.chart.apart)
         axis.set_title("" if name == "error" else name)
         axis.set_xlabel(study.get("error_title", "error") if name == "error" else "error of " + name)
         axis.set_ylabel("CPU time [s]")
@@ -85,7 +85,7 @@ def draw_work_precision(study, results, folder):
     return save(figure, folder, study.name)
 
 
-def work_precision_panel(axis, results, name, looks, handles):
+def work_precision_panel(axis, results, name, looks, handles, apart=()):
     shown = results.compared(name)
     front = results.front(name)
     failed = [r for r in results if not r.done and not r.point.reference]
@@ -100,7 +100,7 @@ def work_precision_panel(axis, results, name, looks, handles):
                                                                                 drawstyle="steps-post")
     for s, (colour, marker) in looks.items():
         points = [r for r in shown if r.point.series == s]
-        handles[s], = axis.plot([place(r) for r in points], [r.cpu_s for r in points], marker=marker, color=colour, ms=9, lw=1, ls=":", mec="white", mew=0.7, zorder=3)
+        handles[s], = axis.plot([place(r) for r in points], [r.cpu_s for r in points], marker=marker, color=colour, ms=9, lw=1, ls="" if s in apart else ":", mec="white", mew=0.7, zorder=3)
         for r in points:
             axis.wanted.append((place(r), r.cpu_s, r.point.label if r.point.shown is None else r.point.shown, colour))
             if r.point.default:

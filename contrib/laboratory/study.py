@@ -70,6 +70,7 @@ class Chart:
 
     kind = "work-precision"
     log_x: bool = True
+    apart: tuple = ()  # series whose points have nothing to do with one another: no line joins them
 
 
 @dataclasses.dataclass

@@ -15,7 +15,7 @@ from laboratory import accuracy
 from laboratory.study import Chart, Missing, Point, Result
 
 order = 0
-chart = Chart()
+chart = Chart(apart=("other studies",))
 limit = 300
 HERE = os.path.dirname(os.path.abspath(__file__))
 
