@@ -22,7 +22,7 @@ import time
 
 from . import ROOT
 from .study import NOT_INSTALLED, Mistake, Result, Results
-from alluvium import Run, sweeps
+from alluvium import Run, read_parameters, sweeps
 
 COLUMNS = ["series", "label", "x", "y", "status", "exit_code", "reason", "cpu_s"]  # then errors and values, then:
 INTERRUPTED = "interrupted"  # such a point is run again
@@ -315,13 +315,13 @@ class Runner:
         if not os.path.isfile(name):
             raise Mistake("--read: there is no %s, which says with what parameters it was run" % name)
         with open(name) as file:
-            has = parameters(file)
+            has = read_parameters(file)
         words = [word for name, value in point.settings.items() if "{" not in sweeps._text(value) for word in ("--set", "%s=%s" % (name, sweeps._text(value)))]
         asked = subprocess.run([self.alluvium, "--print-parameters", os.path.join(self.study.folder, point.scene), *words], capture_output=True, text=True, env=sweeps.environment())
         if asked.returncode:
             raise Mistake("--read: %s" % asked.stderr.strip())
         filled = {name for name, value in point.settings.items() if "{" in sweeps._text(value)}
-        for name, value in parameters(asked.stdout.splitlines()).items():
+        for name, value in read_parameters(asked.stdout.splitlines()).items():
             if name.startswith("Output/") or name.endswith("Cache folder") or name in filled or name not in has or plain(has[name]) == plain(value):
                 continue
             raise Mistake("--read: the run in %s has '%s = %s', the point '%s' has '%s'" % (folder, name, has[name], point.name, value))
@@ -359,21 +359,6 @@ class Runner:
         for path in (self.scratch, self.build, ROOT):
             reason = reason.replace(path + "/", "")
         return textwrap.shorten(str(reason), 400, placeholder=" ...")
-
-
-def parameters(lines):
-    """{'Section/Name': value} of the lines of a parameter file."""
-    found, section = {}, []
-    for line in lines:
-        words = line.split("#")[0].strip()
-        if words.startswith("subsection "):
-            section.append(words[11:].strip())
-        elif words == "end":
-            section.pop()
-        elif words.startswith("set ") and "=" in words:
-            name, value = words[4:].split("=", 1)
-            found["/".join(section + [name.strip()])] = value.strip()
-    return found
 
 
 def plain(text):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import os
-from typing import Any, Iterator
+from typing import Any, Iterable, Iterator
 
 import numpy as np
 
@@ -40,6 +40,22 @@ def read_summary(folder: str) -> dict[str, Any]:
         return {}
     with open(name) as file:
         return json.load(file)
+
+
+def read_parameters(lines: Iterable[str]) -> dict[str, str]:
+    """{'Section/Name': value} of the lines of a parameter file without includes."""
+    found: dict[str, str] = {}
+    section: list[str] = []
+    for line in lines:
+        words = line.split("#")[0].strip()
+        if words.startswith("subsection "):
+            section.append(words[11:].strip())
+        elif words == "end":
+            section.pop()
+        elif words.startswith("set ") and "=" in words:
+            name, value = words[4:].split("=", 1)
+            found["/".join(section + [name.strip()])] = value.strip()
+    return found
 
 
 class Run:
@@ -106,19 +122,8 @@ class Run:
 
     def parameter(self, path: str) -> str:
         """A parameter as the run used it, 'Section/Name', from parameters.prm."""
-        section: list[str] = []
         with open(os.path.join(self.folder, "parameters.prm")) as file:
-            for line in file:
-                words = line.split("#")[0].strip()
-                if words.startswith("subsection "):
-                    section.append(words[11:].strip())
-                elif words == "end":
-                    section.pop()
-                elif words.startswith("set ") and "=" in words:
-                    name, value = words[4:].split("=", 1)
-                    if "/".join(section + [name.strip()]) == path:
-                        return value.strip()
-        raise KeyError(path)
+            return read_parameters(file)[path]
 
     def _series(self, what: str) -> list[tuple[float, list[str]]]:
         name = os.path.join(self.folder, what + ".pvd")
