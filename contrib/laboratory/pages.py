@@ -234,5 +234,9 @@ def report(pages, target, alluvium):
 
 
 def encoded(name):
+    """A picture; of a page of quick points that has kept none of its own, that in doc/lab."""
+    if not os.path.exists(name):
+        parts = os.path.normpath(name).split(os.sep)
+        name = next((there for n in range(len(parts)) for there in [os.path.join(ROOT, "doc", "lab", *parts[n:])] if os.path.isfile(there)), name)
     with open(name, "rb") as file:
         return base64.b64encode(file.read()).decode()
