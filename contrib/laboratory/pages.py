@@ -171,10 +171,9 @@ def index(studies, results_of, folder, quick=False):
         results = results_of(study)
         if not os.path.exists(os.path.join(folder, study.name, "README.md")):
             continue  # not finished yet
-        out += ["### [%s](%s/README.md)" % (study.title, study.name), "", study.says(results), "",
-                "[![%s](%s/%s.png)](%s/README.md)" % (study.title, study.name, study.name, study.name), ""]
-        if not os.path.exists(os.path.join(folder, study.name, study.name + ".png")):
-            out = out[:-2]
+        out += ["### [%s](%s/README.md)" % (study.title, study.name), "", study.says(results), ""]
+        if os.path.exists(os.path.join(folder, study.name, study.name + ".png")):
+            out += ["[![%s](%s/%s.png)](%s/README.md)" % (study.title, study.name, study.name, study.name), ""]
         table = accuracy_table(study, results)
         out += [LINE_BEFORE, ""] + table + [""] if table else []
         failed = sum(not r.done for r in results)
@@ -225,7 +224,7 @@ def report(pages, target, alluvium):
             text = re.sub(r"<!--.*?-->", "", file.read(), flags=re.S)
         text = re.sub(r"\[(!\[.*?\]\(.*?\))\]\(.*?\)", r"\1", text)  # the picture's own link
         text = re.sub(r"(?<!!)\[([^\]]*)\]\((?![a-z]+:)[^)]*\)", r"\1", text)  # links into the repository lead nowhere from here
-        page = re.sub(r'src="([\w./-]+\.png)"', lambda m: 'src="data:image/png;base64,%s"' % encoded(os.path.join(folder, m[1])), parser.render(text))
+        page = re.sub(r'src="([\w./-]+\.png)"', lambda m: 'src="data:image/png;base64,%s"' % encoded(folder, m[1]), parser.render(text))
         body.append('<section id="s%d">%s</section>' % (i, page))
     os.makedirs(os.path.dirname(os.path.abspath(target)), exist_ok=True)
     with open(target, "w") as file:
@@ -233,10 +232,10 @@ def report(pages, target, alluvium):
                    % (style, "\n".join(body)))
 
 
-def encoded(name):
-    """A picture; of a page of quick points that has kept none of its own, that in doc/lab."""
+def encoded(folder, picture):
+    """A picture of the page in this folder; if a page of quick points has not kept it, that of the study in doc/lab."""
+    name = os.path.join(folder, picture)
     if not os.path.exists(name):
-        parts = os.path.normpath(name).split(os.sep)
-        name = next((there for n in range(len(parts)) for there in [os.path.join(ROOT, "doc", "lab", *parts[n:])] if os.path.isfile(there)), name)
+        name = os.path.join(ROOT, "doc", "lab", os.path.basename(folder), picture)
     with open(name, "rb") as file:
         return base64.b64encode(file.read()).decode()
